@@ -14,22 +14,22 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use tokio::time::error::Elapsed;
 
-/// Where the steady clocks of this process count from.
+/// Zero of the steady clocks of this process.
 static BASE: LazyLock<tokio::time::Instant> = LazyLock::new(tokio::time::Instant::now);
 
-/// A reading of a steady clock, which never jumps; nanoseconds from an arbitrary zero.
-/// Unlike the one of the standard library it can be written down, and it may come from
-/// a clock that runs faster than real time: only readings of the same clock compare.
+/// A reading of a steady clock, which never jumps; nanoseconds from an arbitrary zero. Unlike the
+/// instant of the standard library, it can be serialized and may come from a clock that runs faster
+/// than real time. Only readings of the same clock can be compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Instant(i64);
 
 impl Instant {
-    /// The steady clock of this process.
+    /// Returns the current reading of the steady clock of this process.
     pub fn now() -> Self {
         Clock::scaled(NonZeroU32::MIN)
     }
 
-    /// The time since `earlier`; zero where that is later.
+    /// Returns the time since `earlier`; zero if `earlier` is later.
     #[must_use]
     pub fn saturating_duration_since(self, earlier: Self) -> Duration {
         Duration::from_nanos(self.0.saturating_sub(earlier.0).try_into().unwrap_or_default())
@@ -70,17 +70,17 @@ fn nanos(span: Duration) -> i64 {
     i64::try_from(span.as_nanos()).unwrap_or(i64::MAX)
 }
 
-/// One instant on both clocks: the steady one for intervals, UTC for the sky.
+/// One instant on both clocks: steady time for intervals, UTC for the sky.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Moment {
-    /// Never jumps.
+    /// Time of the steady clock, which never jumps.
     pub steady: Instant,
-    /// May be corrected at any time.
+    /// UTC, which may be corrected at any time.
     pub utc: Timestamp,
 }
 
-/// UTC, the steady clock, timers, and how long the computer has slept. The steady clock
-/// is tokio's, so that tests can pause it, times the speed.
+/// UTC, the steady clock, timers, and the time that the computer has slept. The steady clock is
+/// tokio's clock, which tests can pause, multiplied by the speed.
 #[derive(Clone)]
 pub struct Clock {
     utc: Arc<dyn Fn() -> Timestamp + Send + Sync>,
@@ -96,19 +96,19 @@ impl fmt::Debug for Clock {
 }
 
 impl Clock {
-    /// The clocks of the operating system.
+    /// Returns the clocks of the operating system.
     pub fn system() -> Self {
         let utc = Arc::new(Timestamp::now);
         Self { utc, asleep: Arc::new(asleep), speed: NonZeroU32::MIN, is_of_system: true }
     }
 
-    /// A clock of one's own, of a computer that never sleeps.
+    /// Returns a clock that shows `utc`, of a computer that never sleeps.
     pub fn new(utc: impl Fn() -> Timestamp + Send + Sync + 'static) -> Self {
         let asleep = Arc::new(|| Duration::ZERO);
         Self { utc: Arc::new(utc), asleep, speed: NonZeroU32::MIN, is_of_system: false }
     }
 
-    /// A clock that shows `start` now and runs `speed` times as fast as real time.
+    /// Returns a clock that shows `start` now and runs `speed` times as fast as real time.
     pub fn at_speed(start: Timestamp, speed: NonZeroU32) -> Self {
         let begun = Self::scaled(speed);
         let utc = move || {
@@ -118,29 +118,28 @@ impl Clock {
         Self { speed, ..Self::new(utc) }
     }
 
-    /// The same clock of a computer that has slept for `asleep` in all.
+    /// Returns the same clock of a computer that has slept for `asleep` in all.
     #[must_use]
     pub fn sleeping(self, asleep: impl Fn() -> Duration + Send + Sync + 'static) -> Self {
         Self { asleep: Arc::new(asleep), ..self }
     }
 
-    /// Returns `true` for the clocks of the operating system, which a time service keeps.
+    /// Returns `true` for the clocks of the operating system, which a time service corrects.
     pub fn is_of_system(&self) -> bool {
         self.is_of_system
     }
 
-    /// UTC now.
+    /// Returns the current UTC.
     pub fn utc(&self) -> Timestamp {
         (self.utc)()
     }
 
-    /// For how long the computer has slept in all, during which the steady clock
-    /// stood.
+    /// Returns the total time that the computer has slept. The steady clock stops during sleep.
     pub fn asleep(&self) -> Duration {
         (self.asleep)()
     }
 
-    /// UTC and the steady clock now.
+    /// Returns the current UTC and the current reading of the steady clock.
     pub fn now(&self) -> Moment {
         Moment { steady: Self::scaled(self.speed), utc: self.utc() }
     }
@@ -161,14 +160,14 @@ impl Clock {
         tokio::time::timeout(self.real(span), work).await
     }
 
-    /// Returns the real time in which `span` passes, rounded up: after a sleep that ends too early,
-    /// another one would begin again and again.
+    /// Returns the real time in which `span` passes, rounded up: a sleep that ends too early would
+    /// be repeated again and again.
     fn real(&self, span: Duration) -> Duration {
         let nanos = span.as_nanos().div_ceil(self.speed.get().into());
         u64::try_from(nanos).map_or(Duration::MAX, Duration::from_nanos)
     }
 
-    /// A reading of the steady clock that runs at `speed`.
+    /// Returns the current reading of the steady clock that runs at `speed`.
     fn scaled(speed: NonZeroU32) -> Instant {
         let (now, base) = (tokio::time::Instant::now(), *BASE);
         // A paused clock of a test may have begun before the first reading.
@@ -178,7 +177,7 @@ impl Clock {
     }
 }
 
-/// The clock that runs on in sleep, less the one that stands.
+/// Returns the time slept since boot: the clock that counts sleep, less the clock that stops.
 #[cfg(target_os = "linux")]
 fn asleep() -> Duration {
     use nix::time::ClockId;
@@ -190,7 +189,7 @@ fn asleep() -> Duration {
     clocks.unwrap_or_default()
 }
 
-/// The steady clock runs on in sleep, or nothing tells.
+/// Returns zero: the steady clock continues during sleep, or no clock shows the sleep.
 #[cfg(not(target_os = "linux"))]
 fn asleep() -> Duration {
     Duration::ZERO

@@ -1,10 +1,9 @@
 //! The behaviour of each make of controller, without I/O: the next question, the meaning of a
-//! reply, and the mapping of its state to the one that all antennas share. Time comes in as an
-//! argument.
+//! reply, and the conversion to the common state of all antennas. The caller passes the time.
 //!
-//! Each make is one folder. [`crate::device`] is what they have in common.
+//! Each make is one folder. [`crate::device`] defines the interface that all makes share.
 //!
-//! Invariant: nothing here opens a link.
+//! Invariant: this module opens no link.
 
 pub mod rc2000c;
 mod reply_clock;

@@ -1,4 +1,4 @@
-//! Demo station, used before there are settings.
+//! Demo station for an Azel without settings.
 
 use crate::{
     controller::{rc2000c::Calibration, satrak::ELEMENT_FILE},
@@ -12,16 +12,16 @@ pub const BUNDLED_FILE: &str = "active.txt";
 /// Addresses of the three simulated units.
 #[derive(Debug, Clone, Default)]
 pub struct DemoAddresses {
-    /// Host and port.
+    /// Host and port of the Satrak.
     pub satrak: String,
-    /// Host and port.
+    /// Host and port of the Rotator Genius.
     pub genius: String,
-    /// A serial port, or host and port.
+    /// Serial port of the RC2000C, or host and port.
     pub rc2000c: String,
 }
 
 impl Station {
-    /// Demo station, used before there are settings: a simulated unit of each make, and
+    /// Returns the demo station for an Azel without settings: a simulated unit of each make, and
     /// well-known weather and research satellites.
     pub fn demo(addresses: &DemoAddresses) -> Self {
         let mut antennas = vec![
@@ -38,13 +38,13 @@ impl Station {
 
 fn satrak(address: &str) -> Antenna {
     let mut antenna = Antenna::satrak("Satrak", address);
-    // Cannot fail: a Satrak has this setting, and it accepts any text.
+    // The call cannot fail: a Satrak has this setting, and it accepts any text.
     antenna.connection.put(&ELEMENT_FILE, BUNDLED_FILE).ok();
     antenna
 }
 
-/// Antenna of the simulated RC2000C. It turns from east over south to west, 20 counts a
-/// degree.
+/// Returns the antenna of the simulated RC2000C, which turns from east over south to west, 20
+/// counts a degree.
 fn rc2000c(address: &str) -> Antenna {
     let mut antenna = Antenna::rc2000c("RC2000C", address);
     antenna.mount = Mount::AzEl {
@@ -58,7 +58,7 @@ fn rc2000c(address: &str) -> Antenna {
         azimuth: vec![point(30, 90.0), point(3630, 270.0)],
         elevation: vec![point(30, 0.0), point(1830, 90.0)],
     };
-    // Cannot fail: an RC2000C has these settings, and the points make a scale.
+    // The call cannot fail: an RC2000C has these settings, and the points make a scale.
     calibration.put_into(&mut antenna.connection).ok();
     antenna
 }

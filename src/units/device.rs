@@ -1,8 +1,8 @@
 //! The interface between a controller of any make and the rest of the program: its state,
 //! its settings and its commands.
 //!
-//! Invariant: a [`Controller`] can start motion, so only the driver's gate holds one; everyone
-//! else sees its [`Device`] side.
+//! Invariant: a [`Controller`] can start motion, so only the driver's gate holds one. All other
+//! code uses its [`Device`] side.
 
 mod calibration;
 mod capabilities;
@@ -41,7 +41,7 @@ use crate::{
 use panel::{Act, Lead};
 use settings::{Change, WriteError};
 
-/// While the antenna moves, a reply counts as missing after this time.
+/// Time limit for a reply while the antenna moves.
 pub const PROMPT: Duration = Duration::from_millis(600);
 /// Default of [`Device::patience`].
 const PATIENCE: Duration = Duration::from_secs(5);
@@ -49,45 +49,45 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// second, because motion by hand needs a position younger than a second.
 const LONGEST_POLL_PERIOD: Duration = Duration::from_millis(500);
 
-/// A motion that a controller can be asked for.
+/// A motion that Azel can request from a controller.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Motion {
-    /// Both axes turn at these rates until stopped; degrees a second.
+    /// Rotation of both axes at these rates until stopped; degrees a second.
     Jog {
-        /// First axis, signed.
+        /// Signed rate of the first axis.
         x_deg_s: f64,
-        /// Second axis, signed.
+        /// Signed rate of the second axis.
         y_deg_s: f64,
     },
-    /// Both axes turn by this much; degrees.
+    /// Rotation of both axes by these angles; degrees.
     Step {
-        /// First axis, signed.
+        /// Signed angle of the first axis.
         x_deg: f64,
-        /// Second axis, signed.
+        /// Signed angle of the second axis.
         y_deg: f64,
     },
-    /// To a direction. `None` leaves that axis at its present angle, not at its present
-    /// direction: over the zenith the two differ.
+    /// Move to a direction. `None` leaves that axis at its current angle, which over the zenith
+    /// differs from its current direction.
     Position {
-        /// Azimuth. On a mount whose azimuth axis turns by more than a turn it is
-        /// the position of that axis: 370 is not 10.
+        /// Azimuth. On a mount whose azimuth axis turns by more than 360 degrees, the position of
+        /// that axis: 370 is not 10.
         azimuth: Option<Angle>,
-        /// Elevation. On a mount whose elevation axis travels over the zenith it is
-        /// the position of that axis: 120 points up 60 degrees on the other side.
+        /// Elevation. On a mount whose elevation axis travels over the zenith, the position of that
+        /// axis: 120 points up 60 degrees on the other side.
         elevation: Option<Angle>,
     },
-    /// The unit starts to track the target it holds.
+    /// Start of the on-board track of the target that the unit holds.
     StartProgram,
-    /// The unit starts to track by itself whenever its target is due.
+    /// Auto-track: the unit starts to track whenever its target is due.
     EnableAuto,
 }
 
 /// A request to move; events report its outcome.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum MotionRequest {
-    /// By [`Controller::start`].
+    /// A motion started with [`Controller::start`].
     Motion(Motion),
-    /// By [`Controller::act`]: one of [`Variant::actions`], by its key.
+    /// An action requested with [`Controller::act`]: the key of one of [`Variant::actions`].
     Action(#[serde(deserialize_with = "name::one")] Name),
 }
 
@@ -100,7 +100,7 @@ impl From<Motion> for MotionRequest {
 /// A target for on-board track.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TrackTarget {
-    /// Up to nine digits.
+    /// Catalog number of up to nine digits.
     pub catalog_number: u32,
     /// Name as in the elements.
     pub name: String,
@@ -113,100 +113,99 @@ pub struct TrackTarget {
     pub end: Timestamp,
 }
 
-/// A question that the operator may ask a unit by hand. It changes nothing.
+/// A question that the operator may ask a unit by hand. The question changes nothing on the unit.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Question {
-    /// As typed, in capitals, such as `STATUS?`.
+    /// Text as typed, in capitals, such as `STATUS?`.
     pub key: SmolStr,
     /// Subject of the question, as a sentence without a full stop.
     #[serde(rename = "about")]
     pub subject: Cow<'static, str>,
-    /// Bytes that go over the link.
+    /// Bytes to send over the link.
     pub bytes: Box<[u8]>,
 }
 
 /// Scope of a halt.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
-    /// Present motion only.
+    /// Current motion only.
     Motion,
-    /// Present motion and on-board track, whatever the known state.
+    /// Current motion and on-board track, even if the track is known to be off.
     Track,
-    /// These, and whatever the unit would start by itself.
+    /// Current motion, on-board track and auto-track.
     Everything,
 }
 
 /// Outcome of a request to a unit.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ControllerEvent {
-    /// The target was sent and read back: the unit holds it.
+    /// The target that was sent and read back.
     Prepared(TrackTarget),
-    /// The unit does not hold the target.
+    /// The target that the unit does not hold, with the reason.
     NotPrepared(TrackTarget, PrepareError),
-    /// The unit accepted the command; its state shows whether it moves.
+    /// A command that the unit accepted; its state shows whether it moves.
     Accepted(MotionRequest),
-    /// The unit refused the command with this answer.
+    /// A command that the unit refused with this answer.
     Refused(MotionRequest, String),
-    /// No answer came. The command is not sent again; the state shows what happened.
+    /// A command without an answer. Azel does not send it again; the state shows what happened.
     Unanswered(MotionRequest),
-    /// The unit refused a halt with this answer.
+    /// The answer with which the unit refused a halt.
     HaltRefused(String),
-    /// The unit refused to switch auto-track off, or did not answer.
+    /// Auto-track that the unit refused to switch off, or did not answer about.
     AutoStaysOn,
 }
 
-/// Why the unit does not hold the target.
+/// Reason why the unit does not hold the target.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum PrepareError {
-    /// The protocol cannot carry a name, file or time.
+    /// A name, file or time that the protocol cannot carry.
     #[error("cannot be sent: {0}")]
     CannotBeSent(String),
     #[error("the unit answered {0}")]
     Refused(String),
-    /// No answer to a setting.
+    /// A missing answer to a setting.
     #[error("no answer")]
     Unanswered,
-    /// The read-back differs from the target.
+    /// A read-back that differs from the target.
     #[error("holds {current}")]
     Differs {
-        /// Held by the unit now.
+        /// Target that the unit holds now.
         #[serde(rename = "held")]
         current: String,
     },
-    /// The unit has no elements of the satellite.
+    /// A satellite whose elements the unit does not have.
     #[error("no elements in {file}")]
     NotOnDevice {
         /// The element file that was searched.
         file: String,
     },
-    /// Neither the unit nor the settings name an element file.
+    /// A missing element file: neither the unit nor the settings name a file.
     #[error("no element file is named")]
     NoElementFile,
-    /// A halt came in between.
+    /// A halt during the preparation.
     #[error("stopped")]
     Stopped,
 }
 
-/// The side of a controller that everyone may use: nothing here starts a motion or decides
-/// where one leads. A method with a default is for a feature that not every make has, or
-/// returns the usual figure.
+/// The side of a controller that all code may use: no method starts a motion or decides where a
+/// motion leads. A method with a default is for a feature that only some makes have, or returns the
+/// default value.
 ///
-/// A position question that is not answered is asked again. The position then counts as
-/// asked for when the first unanswered question went out. The reply to a halt is never
-/// taken as a position, whatever it holds.
+/// The controller repeats an unanswered position question. The position then counts as requested at
+/// the time of the first unanswered question. The reply to a halt is never used as a position.
 pub trait Device: Send {
-    /// The link has come up: forget all outstanding requests, halts included, and ask
-    /// everything anew.
+    /// Handles a new link: forgets all outstanding requests, halts included, and asks all questions
+    /// again.
     fn link_up(&mut self, now: Moment);
 
-    /// The link is gone: no outstanding request will be answered. Requests that are kept
-    /// here are forgotten in [`Self::link_up`].
+    /// Handles a lost link: no outstanding request will be answered. [`Self::link_up`] forgets the
+    /// requests that the controller keeps.
     fn link_down(&mut self, _now: Moment) {}
 
-    /// Bytes were written: notes them for [`Self::next_wire_line`].
+    /// Records written bytes for [`Self::next_wire_line`].
     fn sent(&mut self, _bytes: &[u8], _now: Moment) {}
 
-    /// Takes the oldest line of the link that was not taken yet.
+    /// Returns the oldest line of the link that was not returned yet.
     fn next_wire_line(&mut self) -> Option<WireLine> {
         None
     }
@@ -214,127 +213,127 @@ pub trait Device: Send {
     /// Takes received bytes. Any bytes are harmless.
     fn receive(&mut self, bytes: &[u8], now: Moment);
 
-    /// Returns the bytes to send now, if something is due.
+    /// Returns the bytes to send now, if a request is due.
     fn poll(&mut self, now: Moment) -> Option<Vec<u8>>;
 
-    /// The latest time for the next call of [`Self::poll`].
+    /// Returns the latest time for the next call of [`Self::poll`].
     fn due(&self, now: Moment) -> Instant;
 
-    /// Returns the bytes that stop all motion and end on-board track, and drops motions
-    /// that wait. The caller writes them at once, before and despite anything else. With
-    /// [`Extent::Motion`], an on-board track that is known to be off is left alone; with
-    /// [`Extent::Everything`], auto-track is switched off too.
+    /// Returns the bytes that stop all motion and end on-board track, and drops pending motions.
+    /// The caller writes them immediately, ahead of all other bytes. [`Extent::Motion`] leaves an
+    /// on-board track that is known to be off unchanged; [`Extent::Everything`] also switches
+    /// auto-track off.
     fn halt(&mut self, extent: Extent, now: Moment) -> Vec<u8>;
 
-    /// The operator has pressed STOP, whatever was halted before: ends every permission
-    /// that was given for a limited time.
+    /// Ends every permission with a time limit, because the operator has pressed STOP.
     fn disarm(&mut self) {}
 
-    /// Time after which an unproved halt is sent again. By then a state that was requested
-    /// after the halt has come in.
+    /// Returns the time after which Azel sends an unproved halt again. A state that was requested
+    /// after the halt arrives within this time.
     fn halt_patience(&self) -> Duration {
         Duration::from_secs(1)
     }
 
-    /// Asks for the position at once. For makes whose [`Self::poll_period`] can be long.
+    /// Asks for the position immediately. This is for makes whose [`Self::poll_period`] can be
+    /// long.
     fn ask_position(&mut self, _now: Moment) {}
 
-    /// While `is_watched`, this program has the antenna moving: a position that does not
-    /// arrive within [`Self::prompt`] is asked for again at once, and a slower reply holds
-    /// up no position question. There is no default, because the second question decides
-    /// whether the unit counts as silent.
+    /// Sets whether Azel has the antenna moving. If so, the controller immediately asks again for a
+    /// position that does not arrive within [`Self::prompt`], and a slower reply delays no position
+    /// question. There is no default, because the second question decides whether the unit counts
+    /// as silent.
     fn watch_closely(&mut self, is_watched: bool);
 
-    /// Longest time that a reply takes in normal operation.
+    /// Returns the max time that a reply takes in normal operation.
     fn prompt(&self) -> Duration {
         PROMPT
     }
 
-    /// Reads the group with this key anew; the result appears in [`AntennaState::groups`].
-    /// Without [`Variant::groups`], neither this method nor the others about settings are
-    /// called.
+    /// Reads the group with this key again; the result appears in [`AntennaState::groups`]. Azel
+    /// calls this method and the others about settings only with [`Variant::groups`].
     fn read_group(&mut self, _group: &str) {}
 
     /// Records a change that is not sent, with the reason, in [`AntennaState::groups`].
     fn refuse_change(&mut self, _change: Change, _why: WriteError, _now: Moment) {}
 
-    /// Locks or unlocks the settings. While they are locked, changes that wait end with
-    /// [`LockedOut`](settings::WriteError::LockedOut), and the gate passes no new one.
+    /// Locks or unlocks the settings. While they are locked, pending changes end with
+    /// [`LockedOut`](settings::WriteError::LockedOut), and the gate passes no new change.
     fn lock_changes(&mut self, _are_locked: bool) {}
 
-    /// Asks one of [`AntennaState::questions`], by its key, between the controller's own
-    /// questions. An unknown key is ignored.
+    /// Asks one of [`AntennaState::questions`], by its key, between the controller's own questions.
+    /// Ignores an unknown key.
     fn ask(&mut self, _question: &str) {}
 
-    /// Switches auto-track off: the unit no longer starts to track by itself.
+    /// Switches auto-track off: the unit no longer starts to track unattended.
     fn disable_auto(&mut self) {}
 
-    /// Returns `true` while a motion is queued, or sent and not answered. There is no
-    /// default: a wrong `false` would let the next motion be sent into this one.
+    /// Returns `true` while a motion is queued, or sent and not answered. There is no default:
+    /// after a wrong `false`, Azel would send the next motion into this one.
     fn motion_under_way(&self) -> bool;
 
-    /// The motion as the unit takes it, such as rounded to whole degrees.
+    /// Returns the motion as the unit takes it, for example rounded to whole degrees.
     fn as_sent(&self, motion: Motion) -> Motion {
         motion
     }
 
-    /// The state as last known.
+    /// Returns the last known state.
     fn state(&self) -> &AntennaState;
 
-    /// Takes the oldest outcome of earlier requests. There is no default: refused and
-    /// unanswered motions are reported only here.
+    /// Returns the oldest outcome of earlier requests that was not returned yet. There is no
+    /// default, because only this method reports refused and unanswered motions.
     fn next_event(&mut self) -> Option<ControllerEvent>;
 
-    /// Time without a good reply after which the link counts as lost.
+    /// Returns the time without a good reply after which the link counts as lost.
     fn patience(&self) -> Duration {
         PATIENCE
     }
 
-    /// Present time between two questions. It sets how far ahead of the last position a jog
-    /// is judged, and when a link counts as stale.
+    /// Returns the current time between two position questions. It determines how far ahead of the
+    /// last position Azel judges a jog, and when a link counts as stale.
     fn poll_period(&self) -> Duration {
         LONGEST_POLL_PERIOD
     }
 }
 
-/// The side of a controller that can move the antenna or decide where it goes. Only the
-/// gate holds it.
+/// The side of a controller that can move the antenna or decide where it goes. Only the gate has
+/// access to it.
 pub trait Controller: Device {
-    /// A reason of this make not to start the motion or let it go on. The gate calls it after
-    /// its own rules, and again while a jog runs.
+    /// Returns a reason of this make not to start the motion or continue it. The gate calls this
+    /// method after its own rules, and again while a jog runs.
     fn objection(&self, _asked: &MotionRequest, _now: Moment) -> Option<&'static str> {
         None
     }
 
-    /// Where an action leads the axes. By default the operator answers for it.
+    /// Returns where an action leads the axes. By default, the operator is responsible for it.
     fn lead_of(&self, _act: &Act) -> Lead {
         Lead::Unseen("its make does not tell where it leads")
     }
 
-    /// Puts a target on the unit without moving the antenna. The outcome is a
-    /// [`ControllerEvent`]. Not called without [`Capabilities::has_program`].
+    /// Puts a target on the unit without moving the antenna. A [`ControllerEvent`] reports the
+    /// outcome. Azel calls this method only with [`Capabilities::has_program`].
     fn prepare(&mut self, _target: TrackTarget) {}
 
-    /// Writes new values of a group to the unit and reads them back. Progress and outcome
-    /// appear in [`AntennaState::groups`].
+    /// Writes new values of a group to the unit and reads them back. Progress and outcome appear in
+    /// [`AntennaState::groups`].
     fn write_settings(&mut self, _change: Change, _now: Moment) {}
 
     /// Writes offsets of the track that the unit computes, also while it tracks, and reads them
-    /// back. Progress and outcome appear in [`AntennaState::groups`]; a halt voids what is not sent.
-    /// Not called without [`Variant::track_offsets`].
+    /// back. Progress and outcome appear in [`AntennaState::groups`]; a halt drops offsets that are
+    /// not sent yet. Azel calls this method only with [`Variant::track_offsets`].
     fn shift_track(&mut self, _change: Change, _now: Moment) {}
 
-    /// Queues a motion. It is sent once, or not at all when a halt comes first. Without a
-    /// link it is refused, or forgotten when the link comes up. The gate passes no motion
-    /// that [`Variant::capabilities`] exclude; one that comes anyway is refused with a
-    /// [`ControllerEvent`].
+    /// Queues a motion. The controller sends it once, or not at all if a halt comes first. Without
+    /// a link, the controller refuses the motion, or forgets it when the link comes up. The gate
+    /// passes no motion that [`Variant::capabilities`] exclude; the controller refuses such a
+    /// motion with a [`ControllerEvent`].
     fn start(&mut self, motion: Motion);
 
-    /// Queues an action that only this make has. Not called without [`Variant::actions`].
+    /// Queues an action that only this make has. Azel calls this method only with
+    /// [`Variant::actions`].
     fn act(&mut self, _act: Act) {}
 }
 
-/// The direction that a motion aims at. An angle that is `None` stays as measured.
+/// Returns the direction at which a motion aims. An angle that is `None` stays as measured.
 pub fn aimed(
     azimuth: Option<Angle>,
     elevation: Option<Angle>,

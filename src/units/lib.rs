@@ -1,8 +1,8 @@
 //! Antenna controllers without sockets: their protocols, capabilities and settings, the station
 //! file, and the plan that assigns passes to antennas.
 //!
-//! From the bottom: [`clock`], [`secret`], [`whole_file`], [`protocol`], [`device`], [`station`],
-//! [`controller`], [`demo`], [`plan`]; a lower one never names a higher one.
+//! The order from the bottom is [`clock`], [`secret`], [`whole_file`], [`protocol`], [`device`],
+//! [`station`], [`controller`], [`demo`], [`plan`]. A lower module never names a higher module.
 
 pub mod clock;
 pub mod controller;

@@ -1,6 +1,6 @@
 //! Paths along which a mount can follow a pass, differences between its axis readings and its
-//! direction, and lists of passes for other programs and people to read. Pure functions over
-//! passes.
+//! direction, and lists of passes. Other programs and people read the lists. All functions are
+//! pure.
 
 mod az_el;
 mod azimuth_wrap;

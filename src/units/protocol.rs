@@ -1,4 +1,4 @@
-//! Codecs of the controllers: typed requests and replies to bytes and back, without I/O.
+//! Codecs of the controllers: conversion between typed messages and bytes, without I/O.
 
 mod parity;
 pub mod rc2000c;

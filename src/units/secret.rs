@@ -1,25 +1,25 @@
-//! Passwords, wherever they are on their way.
+//! Passwords in memory, protected against output.
 
 use secrecy::{ExposeSecret as _, SecretString};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A password or passphrase. Never shown by `Debug`, never written down by serde, wiped when
-/// dropped.
+/// A password or passphrase. `Debug` never shows it, serde never writes it, and memory is wiped
+/// when it is dropped.
 #[derive(Debug, Clone)]
 pub struct Secret(SecretString);
 
 impl Secret {
-    /// Takes what was typed out of its field, which is empty afterwards.
+    /// Takes the typed text out of its field and leaves the field empty.
     pub fn take(typed: &mut String) -> Self {
         Self(std::mem::take(typed).into())
     }
 
-    /// Hides `text`.
+    /// Returns a secret with `text`.
     pub fn new(text: impl AsRef<str>) -> Self {
         Self(text.as_ref().into())
     }
 
-    /// The text itself. For the wire and the keyring only.
+    /// Returns the text in clear, only for the wire and the keyring.
     pub fn reveal(&self) -> &str {
         self.0.expose_secret()
     }
@@ -43,14 +43,14 @@ impl PartialEq for Secret {
 
 impl Eq for Secret {}
 
-/// Leaves the secret out.
+/// Writes nothing instead of the secret.
 impl Serialize for Secret {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_none()
     }
 }
 
-/// Reads a secret that a client sends; one that was left out is empty.
+/// Reads a secret that a client sends; a missing secret becomes empty.
 impl<'de> Deserialize<'de> for Secret {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         Option::<String>::deserialize(deserializer)

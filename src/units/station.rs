@@ -1,5 +1,5 @@
-//! The station: its site, antennas, favourites and keep-outs, in one TOML file. Reading
-//! forgives what it can and never loses what it cannot read.
+//! The station: its site, antennas, favourites and keep-outs, in one TOML file. The reader replaces
+//! invalid values with defaults, and a save keeps the entries that Azel cannot read.
 
 mod antenna;
 mod automation_rule;
@@ -65,50 +65,50 @@ use crate::astro::{
     time::{DAY_S, seconds_between},
 };
 
-/// Largest difference in TCA of one pass by older and newer elements, seconds.
+/// Max difference between the TCAs of one pass with older and newer elements, seconds.
 const SAME_PASS_S: f64 = 300.0;
-/// How long the choice of a pass that is over is kept, seconds.
+/// Time for which Azel keeps the choice of a past pass, seconds.
 const CHOICE_KEPT_S: f64 = DAY_S;
 
 /// Site, antennas and settings of a ground station.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Station {
-    /// Shown in the top bar.
+    /// Name in the top bar.
     pub name: String,
     #[serde(serialize_with = "Site::serialize_in_file")]
     pub site: Site,
-    /// Horizon mask; `None` where nothing blocks the sky. In the file it is a text that
-    /// [`HorizonMask::parse`] reads: one point a line.
+    /// Horizon mask; `None` if nothing blocks the sky. The file contains it as a text for
+    /// [`HorizonMask::parse`], one point on each line.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "mask_as_text")]
     pub horizon_mask: Option<HorizonMask>,
-    /// Elevation from which a pass counts, degrees 0 to 90: that of AOS and LOS.
+    /// Elevation of AOS and LOS, from which a pass counts, degrees, 0 to 90.
     pub aos_elevation_deg: f64,
-    /// The elevation floor of the pass list, degrees 0 to 89.
+    /// Elevation floor of the pass list, degrees, 0 to 89.
     pub elevation_floor_deg: f64,
     /// The satellites in the pass list.
     pub favourites: Favourites,
-    /// How passes are planned.
+    /// Settings for the schedule.
     #[serde(rename = "schedule", skip_serializing_if = "is_default")]
     pub scheduling: Scheduling,
     /// Groups of satellites, in the operator's order.
     #[serde(rename = "group", skip_serializing_if = "Vec::is_empty")]
     pub groups: Vec<SatelliteGroup>,
-    /// Passes that the operator always or never wants to have taken.
+    /// Passes that the operator always or never wants to take.
     #[serde(rename = "pass", skip_serializing_if = "Vec::is_empty")]
     pub pass_choices: Vec<PassChoice>,
-    /// Automation rules; the first that fits decides.
+    /// Automation rules; the first matching rule decides.
     #[serde(rename = "rule", skip_serializing_if = "Vec::is_empty")]
     pub rules: Vec<AutomationRule>,
-    /// Frequencies of satellites, of which each may have several.
+    /// Frequencies of satellites; each satellite may have several.
     #[serde(rename = "frequency", skip_serializing_if = "Vec::is_empty")]
     pub frequencies: Vec<Frequency>,
-    /// Offsets that are remembered, each of a satellite or an antenna.
+    /// Saved offsets, each for a satellite or an antenna.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub offsets: Vec<KeptOffsets>,
     /// Alarms and reminders that the desktop shows and sounds.
     #[serde(skip_serializing_if = "is_default")]
     pub notices: Notices,
-    /// How long the record is kept.
+    /// Retention of the record.
     #[serde(skip_serializing_if = "is_default")]
     pub record: Retention,
     /// Action on the antennas when the program ends; `None` asks the operator.
@@ -117,7 +117,7 @@ pub struct Station {
     /// Zones into which antennas must not point.
     #[serde(rename = "keep_out", skip_serializing_if = "Vec::is_empty")]
     pub keep_outs: Vec<KeepOut>,
-    /// `None` where antennas need not stay away from the Sun.
+    /// Sun avoidance; `None` if antennas need not avoid the Sun.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sun_avoidance: Option<SunAvoidance>,
     /// Ports on which other programs point antennas.
@@ -126,8 +126,8 @@ pub struct Station {
     /// The antennas, in the order of their chips.
     #[serde(rename = "antenna")]
     pub antennas: Vec<Antenna>,
-    /// Settings on which safety depends and which could not be read: the antennas that they concern
-    /// do not move by themselves until they are repaired in the file.
+    /// Unreadable settings on which safety depends. Automatic operation does not move the affected
+    /// antennas until the operator repairs the file.
     #[serde(skip)]
     pub unread: Vec<Unread>,
 }
@@ -136,7 +136,7 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
-// The signature is serde's.
+// serde prescribes the signature.
 #[allow(clippy::ref_option)]
 fn mask_as_text<S: Serializer>(mask: &Option<HorizonMask>, out: S) -> Result<S::Ok, S::Error> {
     mask.as_ref().map(HorizonMask::to_string).serialize(out)
@@ -151,13 +151,13 @@ impl Station {
         Angle::from_degrees(self.elevation_floor_deg)
     }
 
-    /// The priority of a favourite: its own, else that of the first group with one that it is
-    /// in, else the default. `None` where it is no favourite.
+    /// Returns the priority of a favourite: its own, else the priority of its first group with one,
+    /// else the default. `None` if the satellite is no favourite.
     pub fn priority(&self, satellite: u32) -> Option<Priority> {
         Some(self.priority_of(self.favourites.get(satellite)?))
     }
 
-    /// The priorities of all favourites, by catalog number.
+    /// Returns the priorities of all favourites, by catalog number.
     pub fn priorities(&self) -> BTreeMap<u32, Priority> {
         let favourites = self.favourites.iter();
         favourites.map(|favourite| (favourite.satellite, self.priority_of(favourite))).collect()
@@ -169,14 +169,14 @@ impl Station {
         favourite.priority.or_else(of_group).unwrap_or_default()
     }
 
-    /// The satellites of all groups with this name.
+    /// Returns the satellites of all groups with this name.
     pub fn in_groups(&self, name: &str) -> BTreeSet<u32> {
         let groups = self.groups.iter().filter(|group| group.name == name);
         groups.flat_map(|group| &group.satellites).copied().collect()
     }
 
-    /// The limits of a satellite: its own, and for what it has none, those of its groups in
-    /// their order.
+    /// Returns the limits of a satellite. Its groups, in their order, provide the limits that it
+    /// does not set.
     pub fn pass_limits(&self, satellite: u32) -> PassLimits {
         let own = self
             .favourites
@@ -186,7 +186,7 @@ impl Station {
         self.groups_of(satellite).fold(own, |limits, group| limits.or(&group.limits))
     }
 
-    /// Returns the operator's choice for the pass of a satellite that goes on from `aos` to `los`.
+    /// Returns the operator's choice for the pass of a satellite from `aos` to `los`.
     pub fn pass_choice(
         &self,
         satellite: u32,
@@ -196,8 +196,8 @@ impl Station {
         choices.find(|choice| choice.satellite == satellite && (aos..=los).contains(&choice.tca))
     }
 
-    /// Chooses a pass for the schedule or against it, in place of what was said of it before.
-    /// Choices of passes that are long over go.
+    /// Records the choice for or against a pass, instead of any earlier choice. Removes choices of
+    /// passes that are long over.
     pub fn choose_pass(
         &mut self,
         satellite: u32,
@@ -214,13 +214,13 @@ impl Station {
         self.pass_choices.extend(choice);
     }
 
-    /// The groups that a satellite is in, in their order.
+    /// Returns the groups that contain a satellite, in their order.
     pub fn groups_of(&self, satellite: u32) -> impl Iterator<Item = &SatelliteGroup> {
         self.groups.iter().filter(move |group| group.contains(satellite))
     }
 }
 
-/// A station in Istanbul, without antennas.
+/// Default station in Istanbul, without antennas.
 impl Default for Station {
     fn default() -> Self {
         Self {

@@ -1,6 +1,6 @@
-//! Files that are replaced whole: a new one beside the old one first, then one
-//! rename, so that a failure at any moment leaves the old file as it was. Where
-//! the path is a symbolic link, the file that it leads to is replaced.
+//! Replacement of whole files. Azel writes a new file beside the old one and then renames it, so a
+//! failure at any moment leaves the old file unchanged. Through a symbolic link, Azel replaces the
+//! target of the link.
 
 use std::{
     fs, io,
@@ -10,20 +10,20 @@ use std::{
 
 use tempfile::NamedTempFile;
 
-/// Puts `bytes` at `path`, in folders that are made where they are missing.
+/// Writes `bytes` to `path`, and creates missing folders.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let target = target(path);
     persist(temporary(&target, bytes, Readers::Owner)?, &target)
 }
 
-/// The same for a file that others of this computer may read, as far as the user lets them read
-/// new files or could read the old one.
+/// Writes a file like [`replace`] that other users of this computer may read, as far as the user's
+/// mask or the old file allows.
 pub fn replace_for_others(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let target = target(path);
     persist(temporary(&target, bytes, Readers::AsUsual)?, &target)
 }
 
-/// The same as [`replace`]; what stood there before is kept at [`old`].
+/// Writes a file like [`replace`], and keeps a copy of the previous file at [`old`].
 pub fn replace_and_keep_old(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let target = target(path);
     let file = temporary(&target, bytes, Readers::Owner)?;
@@ -44,15 +44,15 @@ pub fn remove(path: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// The path with the ending `.old` added.
+/// Returns the path with the added ending `.old`.
 pub fn old(path: &Path) -> PathBuf {
     path.with_added_extension("old")
 }
 
-/// Where `path` leads, through symbolic links; `path` itself where it is none.
+/// Returns the path to which `path` leads through symbolic links; `path` itself if it is no link.
 fn target(path: &Path) -> PathBuf {
     let Ok(link) = fs::read_link(path) else { return path.to_owned() };
-    // A link to a file that is not there yet leads there all the same.
+    // A link to a missing file leads to that file nevertheless.
     let folder = path.parent().unwrap_or(Path::new(""));
     fs::canonicalize(path).unwrap_or_else(|_| folder.join(link))
 }
@@ -71,7 +71,7 @@ fn temporary(path: &Path, bytes: &[u8], readers: Readers) -> io::Result<NamedTem
     if readers == Readers::AsUsual {
         use std::os::unix::fs::PermissionsExt as _;
         let of_old = fs::metadata(path).map(|old| old.permissions());
-        // The mask of the user takes its share of them.
+        // The user's mask removes some of these permissions.
         builder.permissions(of_old.unwrap_or_else(|_| fs::Permissions::from_mode(0o666)));
     }
     let mut file = builder.tempfile_in(folder)?;
@@ -86,8 +86,8 @@ fn persist(file: NamedTempFile, path: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Ignores an error: the change is in place, and a folder that cannot be synced could only bring
-/// back the old state after a loss of power.
+/// Syncs the folder of `path` to the disk. Ignores an error: the change is in place, and without
+/// the sync only a loss of power could restore the old state.
 fn sync_folder(path: &Path) {
     #[cfg(unix)]
     if let Some(Ok(folder)) = path.parent().map(fs::File::open) {
@@ -145,7 +145,7 @@ mod tests {
     #[test]
     fn a_failure_leaves_everything_as_it_was() {
         let folder = tempfile::tempdir().unwrap();
-        // A folder of that name cannot be replaced by a file.
+        // A file cannot replace a folder of that name.
         let occupied = folder.path().join("taken");
         fs::create_dir_all(occupied.join("inside")).unwrap();
         replace(&occupied, b"new").unwrap_err();

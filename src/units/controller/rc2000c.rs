@@ -1,8 +1,7 @@
-//! Behaviour of an RC2000C: one command on the line at a time, replies matched by their code,
-//! halts ahead of everything else.
+//! Behaviour of an RC2000C: one command on the line at a time, replies matched by their code, halts
+//! ahead of all other commands.
 //!
-//! An acknowledgement says that a command was understood. Its effect shows in a status that
-//! was asked for later.
+//! An acknowledgement says that the unit understood a command. The effect shows in a later status.
 
 mod actions;
 mod axes;
@@ -35,9 +34,9 @@ use names::SatelliteNames;
 use past::Past;
 pub use spec::{AZIMUTH_POINTS, BAUD, BUS_ADDRESS, Calibration, ELEVATION_POINTS, SPEC, VARIANT};
 
-/// How long the unit jogs after each command: its own timer is the dead-man.
+/// Duration of a jog after each command. The unit's own timer is the dead-man.
 const JOG: Duration = Duration::from_millis(600);
-/// Interval at which a held jog is renewed.
+/// Interval at which Azel renews a held jog.
 const RENEWAL: Duration = Duration::from_millis(300);
 
 #[derive(Debug)]
@@ -51,40 +50,40 @@ pub struct Rc2000c {
     decoder: Decoder,
     state: AntennaState,
     status: Option<Status>,
-    /// Earlier statuses, to see what moves.
+    /// Earlier statuses, which show the axes that move.
     past: Past,
-    /// The unit must be asked for its type.
+    /// `true` while Azel has to ask the unit for its type.
     wants_device: bool,
-    /// The operator has asked for the status.
+    /// `true` if the operator has asked for the status.
     is_status_asked: bool,
-    /// The operator asked for the status under way.
+    /// `true` if the pending status is a request of the operator.
     is_poll_by_hand: bool,
-    /// The operator has asked for the type of the unit.
+    /// `true` if the operator has asked for the type of the unit.
     is_device_asked: bool,
     device: Option<DeviceType>,
-    /// The unit's configuration takes no commands.
+    /// `true` if the unit's configuration accepts no commands.
     is_offline: bool,
     names: SatelliteNames,
-    /// When the next status is due; `None` without a link.
+    /// Time of the next status question; `None` without a link.
     poll_at: Option<Instant>,
     /// End of the gap after a reply, in which only a halt may go out.
     gap_until: Option<Instant>,
     outstanding: Option<Outstanding>,
-    /// When the questions for the status went out whose answers may still come, oldest first.
+    /// Times of the status questions whose answers may still come, oldest first.
     missing: VecDeque<Moment>,
-    /// By then the surplus answers have come.
+    /// Time by which the surplus answers have come.
     drain_until: Option<Instant>,
-    /// Azel has the antenna moving.
+    /// `true` while Azel has the antenna moving.
     is_watched: bool,
-    /// A halt sent past the queue and not answered yet.
+    /// Halt that was sent past the queue and is not answered yet.
     halt: Option<Outstanding>,
-    /// Requests not sent yet.
+    /// Requests that wait to be sent.
     orders: VecDeque<QueuedRequest>,
     jog: Option<HeldJog>,
-    /// STOP was pressed while the polarization may be turning.
+    /// `true` after a STOP while the polarization may be turning.
     holds_polarization: bool,
     events: VecDeque<ControllerEvent>,
-    /// Received bytes that are not recorded yet, and when the last of them came.
+    /// Received bytes that are not recorded yet; `heard_at` is the time of the last byte.
     heard: Vec<u8>,
     heard_at: Option<Instant>,
     wire: WireQueue,
@@ -93,11 +92,11 @@ pub struct Rc2000c {
 #[derive(Debug, Clone, Copy)]
 struct QueuedRequest {
     request: Request,
-    /// The request it belongs to; `None` for a part of a halt.
+    /// The request that this command belongs to; `None` for a part of a halt.
     origin: Option<MotionRequest>,
 }
 
-/// A jog that lives until a halt, a refusal or a missing reply.
+/// A jog that continues until a halt, a refusal or a missing reply.
 #[derive(Debug, Clone, Copy)]
 struct HeldJog {
     motion: Motion,
@@ -122,7 +121,8 @@ fn questions(address: Address) -> [Question; 2] {
 }
 
 impl Rc2000c {
-    /// The unit of `antenna`, by the settings of its connection. Silent until the link is up.
+    /// Returns the unit of `antenna` with the settings of its connection, silent until the link is
+    /// up.
     pub fn new(antenna: &Antenna) -> Self {
         let connection = &antenna.connection;
         let bus_address = u8::try_from(connection.whole(&BUS_ADDRESS)).ok();
@@ -201,20 +201,20 @@ impl Rc2000c {
         Some((Request::Query(Query::SatelliteName(index)), Purpose::Question))
     }
 
-    /// The operator wants to know the type, and no position is waited for that matters.
+    /// Returns `true` if the operator has asked for the type, and no important position is pending.
     fn may_ask_device(&self) -> bool {
         self.is_device_asked && self.jog.is_none() && !self.is_watched
     }
 
-    /// The entry of the list that is to be read next. While a jog has to be
-    /// renewed, or the unit says nothing, it can wait.
+    /// Returns the next entry of the list to read. The list waits while Azel renews a jog or the
+    /// unit does not answer.
     fn next_name(&self) -> Option<NameIndex> {
         let is_calm = self.jog.is_none() && self.status.is_some() && !self.is_offline;
         self.names.next().filter(|_| is_calm)
     }
 
-    /// The command that keeps a held jog alive, when it is time. One that comes
-    /// too late would begin the jog anew, so it is not sent.
+    /// Returns the command that keeps a held jog alive when it is due. Azel sends no renewal that
+    /// is too late, because it would start a new jog.
     fn next_jog(&mut self, now: Moment) -> Option<(Request, Purpose)> {
         let held_jog = self.jog.as_mut()?;
         let age = held_jog.sent.map(|sent| now.steady.saturating_duration_since(sent));
@@ -233,7 +233,7 @@ impl Rc2000c {
         Some((Request::Motion(unit::Motion::Jog(jog)), Purpose::Order(Some(motion.into()))))
     }
 
-    /// Queues the command for `origin`, or says why there is none.
+    /// Queues the command for `origin`, or reports why there is none.
     fn order(&mut self, origin: MotionRequest, request: Result<Request, String>) {
         match request {
             Ok(request) => self.orders.push_back(QueuedRequest { request, origin: Some(origin) }),
@@ -241,7 +241,7 @@ impl Rc2000c {
         }
     }
 
-    /// The next status tells what a command has brought about.
+    /// Makes the next status due now: it shows the effect of a command.
     fn look_soon(&mut self, now: Moment) {
         self.poll_at = self.poll_at.map(|instant| instant.min(now.steady));
     }

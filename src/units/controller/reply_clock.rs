@@ -1,20 +1,20 @@
-//! The clock of a request that waits for its reply. Each make recognises the reply by the words of
-//! its protocol.
+//! The clock of a request that waits for its reply. Each make matches the reply by the words of its
+//! protocol.
 
 use std::time::Duration;
 
 use crate::clock::{Instant, Moment};
 
-/// When a request went out, and from when on its reply is missing.
+/// Times of a request and the time limit for its reply.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ReplyClock {
-    /// The last time.
+    /// Time of the last transmission.
     pub(super) sent: Moment,
-    /// When a question is repeated, its answer may be to the first one.
+    /// Time of the first transmission. The answer to a repeated question may belong to it.
     pub(super) first_sent: Moment,
-    /// How often, with those that it stands for.
+    /// Number of transmissions; `u8::MAX` for a question that replaces a missing one.
     pub(super) tries: u8,
-    /// How long the reply may take.
+    /// Time limit for the reply.
     pub(super) patience: Duration,
 }
 
@@ -23,8 +23,8 @@ impl ReplyClock {
         Self { sent, first_sent: sent, tries: 1, patience }
     }
 
-    /// Returns the clock of a question that stands for one asked at `missing` and given up. Azel
-    /// cannot tell their answers apart, so it does not repeat the question.
+    /// Returns the clock of a question that replaces a question asked at `missing` and given up.
+    /// Azel cannot distinguish their answers, so it does not repeat the question.
     pub(super) fn standing_for(self, missing: Moment) -> Self {
         Self { first_sent: missing, tries: u8::MAX, ..self }
     }
@@ -42,7 +42,7 @@ impl ReplyClock {
         self.sent = now;
     }
 
-    /// For how long the reply has been waited for.
+    /// Returns the time since the last transmission.
     pub(super) fn waited(&self, now: Moment) -> Duration {
         now.steady.saturating_duration_since(self.sent.steady)
     }

@@ -1,8 +1,8 @@
-//! Behaviour of a Rotator Genius: one request outstanding, replies matched by their words,
-//! STOP ahead of everything else.
+//! Behaviour of a Rotator Genius: one request outstanding, replies matched by their words, STOP
+//! ahead of all other requests.
 //!
-//! One unit turns two rotators and has one STOP for both. The station says what they turn:
-//! both angles of one antenna, or its azimuth and something else.
+//! One unit turns two rotators and has one STOP for both. The station file assigns them: both axes
+//! of one antenna, or its azimuth and another device.
 
 mod actions;
 mod changes;
@@ -35,20 +35,19 @@ use turning::Turning;
 
 /// Time limit for an answer.
 const REPLY: Duration = Duration::from_secs(1);
-/// While a rescue is armed, only STOP ends a motion: an answer that takes longer than this is
-/// missing.
+/// Time limit for an answer while a rescue is armed, when only STOP ends a motion.
 const RESCUE_REPLY: Duration = Duration::from_millis(400);
-/// Longest interval between questions while a rescue is armed.
+/// Max interval between questions while a rescue is armed.
 const RESCUE_POLL: Duration = Duration::from_millis(250);
-/// After a repeated question both answers may come. Nothing is asked until the surplus one
-/// must have come.
+/// Pause after a repeated question, whose first answer may still come: Azel asks nothing during the
+/// pause.
 const DRAIN: Duration = Duration::from_millis(1100);
-/// Number of missing answers that are kept count of: a unit that answers everything else but no
-/// question is of no use.
+/// Max number of missing answers that Azel keeps count of. A unit that answers everything except
+/// questions is of no use.
 const MAX_MISSING: usize = 1000;
-/// After this long without a byte, an unfinished reply is given up.
+/// Silence after which Azel gives up an unfinished reply.
 const QUIET: Duration = Duration::from_millis(250);
-/// After this long without a good reply, the link is given up.
+/// Time without a good reply after which Azel gives up the link.
 const PATIENCE: Duration = Duration::from_secs(8);
 
 #[derive(Debug)]
@@ -56,29 +55,29 @@ pub struct Genius {
     rates: PollRates,
     rotators: Rotators,
     decoder: Decoder,
-    /// Bytes that the decoder has not finished with, for the wire log.
+    /// Received bytes that the decoder has not finished with, for the wire log.
     unfinished: VecDeque<u8>,
-    /// When unfinished bytes are given up.
+    /// Time at which Azel gives up unfinished bytes.
     quiet_at: Option<Instant>,
     state: AntennaState,
-    /// The last one on this link.
+    /// The last status on this link.
     status: Option<Status>,
-    /// By the number of the rotator.
+    /// Turning states, indexed by the number of the rotator.
     turning: [Turning; 2],
-    /// When the status is asked for next; `None` without a link.
+    /// Time of the next status question; `None` without a link.
     next_poll: Option<Instant>,
     outstanding: Option<Outstanding>,
-    /// Times of the questions whose answers may still come, oldest first.
+    /// Send times of the questions whose answers may still come, oldest first.
     missing: VecDeque<Instant>,
     drain_until: Option<Instant>,
-    /// Azel has the antenna moving.
+    /// `true` while Azel has the antenna moving.
     is_watched: bool,
-    /// For each STOP sent, until when an answer is expected.
+    /// Deadlines for the answers to the STOPs that Azel has sent.
     halts: VecDeque<Instant>,
     orders: VecDeque<QueuedMotion>,
-    /// To be armed with the next look at the clock.
+    /// `true` until the next poll arms the rescue that the operator asked for.
     is_rescue_wanted: bool,
-    /// The operator has asked for the status.
+    /// `true` if the operator has asked for the status.
     is_asked: bool,
     rescue_until: Option<Instant>,
     changes: ChangeQueue,
@@ -97,7 +96,7 @@ fn questions() -> [Question; 1] {
 }
 
 impl Genius {
-    /// A unit polled at `rates`, silent until the link is up.
+    /// Returns a unit polled at `rates`, silent until the link is up.
     pub fn new(rates: PollRates, rotators: Rotators) -> Self {
         Self {
             rates,
@@ -132,9 +131,9 @@ impl Genius {
         !self.orders.is_empty() || self.outstanding.as_ref().is_some_and(Outstanding::is_motion)
     }
 
-    /// The next request, the most urgent first.
+    /// Returns the next request, the most urgent first.
     fn next_request(&mut self, now: Moment) -> Option<(Request, Purpose)> {
-        // However fast requests come, the position must not grow old.
+        // The position must stay fresh even while many requests are pending.
         let is_overdue =
             self.next_poll.is_some_and(|due| due + self.rates.period(true) <= now.steady);
         if !is_overdue && let Some(QueuedMotion { request, origin }) = self.orders.pop_front() {
@@ -167,7 +166,7 @@ impl Genius {
             || !self.changes.is_empty()
     }
 
-    /// Asks for the status that shows the effect of a command.
+    /// Schedules a status question for now to show the effect of a command.
     fn look_soon(&mut self, now: Moment) {
         if let Some(due) = &mut self.next_poll {
             *due = now.steady.min(*due);

@@ -1,5 +1,5 @@
-//! Behaviour of a Satrak: one request outstanding, replies matched by their word, halts ahead
-//! of everything else.
+//! Behaviour of a Satrak: one request outstanding, replies matched by their word, halts ahead of
+//! all other requests.
 
 mod changes;
 mod checks;
@@ -42,14 +42,14 @@ use waiting_motion::WaitingMotion;
 const REPLY: Duration = Duration::from_secs(2);
 /// Time limit for the answer to a setting for which the unit must fetch or read a file.
 const SLOW_REPLY: Duration = Duration::from_secs(15);
-/// After a repeated question both answers may come. Nothing is asked until the surplus one
-/// must have come, or every later answer would be taken for the one after it.
+/// Pause after a repeated question, whose first answer may still come. Without the pause, Azel
+/// would match every later answer to the wrong question.
 const DRAIN: Duration = Duration::from_secs(1);
-/// Nothing is asked for longer than this because of surplus answers.
+/// Max pause because of surplus answers.
 const LONGEST_DRAIN: Duration = Duration::from_secs(5);
-/// For how long one surplus answer tells that answers are late.
+/// Time for which one surplus answer shows that answers are late.
 const LATE_FOR: Duration = Duration::from_secs(30);
-/// Number of missing statuses that are kept count of.
+/// Max number of missing statuses that Azel keeps count of.
 const MAX_MISSING: usize = 100;
 
 #[derive(Debug)]
@@ -62,36 +62,36 @@ pub struct Satrak {
     schedule: Option<QuerySchedule>,
     outstanding: Option<Outstanding>,
     drain_until: Option<Instant>,
-    /// Asks for the position while another request waits for its reply.
+    /// Question for the position that Azel asks while another request waits for its reply.
     probe: Option<Outstanding>,
-    /// When the statuses went out whose replies are missing, the oldest first. Replies come in the
+    /// Send times of the statuses whose replies are missing, oldest first. Replies come in the
     /// order of their questions.
     missing: VecDeque<Moment>,
-    /// A surplus status has come: replies are late, and not lost, as far as is known until then.
+    /// End of the time in which replies count as late and not as lost, after a surplus status.
     late_until: Option<Instant>,
-    /// Azel has the antenna moving.
+    /// `true` while Azel has the antenna moving.
     is_watched: bool,
-    /// When Azel last switched tracking or auto-track on.
+    /// Time at which Azel last switched tracking or auto-track on.
     program_switched_on: Option<Instant>,
-    /// Halts sent past the queue and not answered yet.
+    /// Halts that Azel sent past the queue and the unit has not answered, each with its deadline.
     halts: VecDeque<(Halt, Instant)>,
     motion: Option<WaitingMotion>,
     calm: VecDeque<Halt>,
     preparation: Option<Preparation>,
-    /// Questions of the operator.
+    /// Pending questions of the operator.
     pending: VecDeque<Query>,
     changes: ChangeQueue,
-    /// A setting that takes the unit long; other questions go on meanwhile.
+    /// A setting that takes the unit long; Azel asks other questions during the wait.
     slow: Option<Outstanding>,
     events: VecDeque<ControllerEvent>,
     wire: WireQueue,
-    /// A frame has come over this link.
+    /// `true` once a frame has come over this link.
     has_heard_frame: bool,
 }
 
 impl Satrak {
-    /// A unit polled at `rates`, silent until the link is up. Satellites are chosen from
-    /// `element_file` on the unit; if that is empty, from the file in use.
+    /// Returns a unit polled at `rates`, silent until the link is up. The unit takes satellites
+    /// from its file `element_file`, or from the file in use if that is empty.
     pub fn new(rates: PollRates, element_file: String) -> Self {
         Self {
             rates,
@@ -134,8 +134,8 @@ impl Satrak {
         self.motion.is_some() || self.outstanding.as_ref().is_some_and(Outstanding::is_motion)
     }
 
-    /// Returns `true` if the tracking program is on, or may be because nothing was read since
-    /// it was switched on.
+    /// Returns `true` if the tracking program is on, or may be on because Azel has read no status
+    /// since it switched the program on.
     fn program_may_run(&self) -> bool {
         let switched_on = self.program_switched_on.is_some_and(|instant| {
             self.state.measured.is_none_or(|measured| measured.requested <= instant)
@@ -143,7 +143,7 @@ impl Satrak {
         switched_on || self.state.program.is_none_or(|program| program.enabled)
     }
 
-    /// The next request, the most urgent first.
+    /// Returns the next request, the most urgent first.
     fn next_request(&mut self, now: Moment) -> Option<(Request, Purpose)> {
         if self.motion.is_some() {
             return self.motion_request(now);
@@ -158,7 +158,7 @@ impl Satrak {
             }
         }
         let due = self.schedule.as_ref()?.next(now.steady);
-        // Whatever else there is to ask, the position must not grow old.
+        // The position must stay fresh even if other questions are pending.
         if due != Some(Query::Status) {
             if let Some(request) = self.write_request(now) {
                 return Some((request, Purpose::WriteSettings));
@@ -176,14 +176,14 @@ impl Satrak {
         }
     }
 
-    /// Queues a question of the operator, once.
+    /// Queues a question of the operator unless it is already pending.
     fn want(&mut self, query: Query) {
         if self.schedule.is_some() && !self.pending.contains(&query) {
             self.pending.push_back(query);
         }
     }
 
-    /// Asks for the status that shows the effect of a command.
+    /// Schedules a status question for now to show the effect of a command.
     fn look_soon(&mut self, now: Moment) {
         if let Some(schedule) = &mut self.schedule {
             schedule.hurry(Query::Status, now.steady);

@@ -1,5 +1,5 @@
-//! Conversion between the counts of a position sensor and degrees, by points that the
-//! operator has measured.
+//! Conversion between the counts of a position sensor and degrees, from points that the operator
+//! has measured.
 
 use std::ops::RangeInclusive;
 
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::settings::Unfit;
 
-/// Degrees at which a sensor may have been read, as the mount counts.
+/// Valid angles of a measured point, degrees of the mount.
 const RANGE_DEG: RangeInclusive<f64> = -360.0..=1440.0;
 
 /// A sensor count and the angle at which it was read.
@@ -15,13 +15,13 @@ const RANGE_DEG: RangeInclusive<f64> = -360.0..=1440.0;
 pub struct CountPoint {
     /// Counts as on the front panel, 0 to 65535.
     pub counts: u16,
-    /// Degrees as the mount counts.
+    /// Angle in degrees of the mount.
     pub degrees: f64,
 }
 
 impl CountPoint {
-    /// Checks that points in any order make a scale; returns the reason if they do not. No
-    /// points are fine: the scale is not known yet.
+    /// Checks that points in any order make a scale; returns the reason if they do not. An empty
+    /// list is valid: the scale is not known yet.
     pub(crate) fn check(points: &[Self]) -> Result<(), Unfit> {
         if points.is_empty() {
             return Ok(());
@@ -43,13 +43,12 @@ impl CountPoint {
     }
 }
 
-/// A line with a smaller slope differs from a flat one by noise only, degrees a count.
+/// Min slope of a line, degrees a count: a smaller slope is only noise.
 const FLAT_DEG: f64 = 1e-6;
 
 /// The straight line that fits measured points best (least squares).
 ///
-/// Degrees are those of the mount: 370 is another position than 10, so nothing is wrapped
-/// here.
+/// The degrees of the mount are not wrapped: 370 is another position than 10.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CountLine {
     centre_counts: f64,
@@ -57,22 +56,22 @@ pub struct CountLine {
     deg_per_count: f64,
 }
 
-/// Why no line can be laid through the points.
+/// Reason why no line fits the points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum CalibrationError {
-    /// One point or none.
+    /// Fewer than two points.
     #[error("two points are needed")]
     TooFew,
-    /// Two points have the same counts.
+    /// Two points with the same counts.
     #[error("{0} counts appear twice")]
     SameCounts(u16),
-    /// The degrees do not change with the counts, or are no numbers.
+    /// Degrees that do not change with the counts, or are not numbers.
     #[error("the degrees do not change with the counts")]
     Flat,
 }
 
 impl CountLine {
-    /// The line through two points or more, in any order.
+    /// Returns the line through two or more points, in any order.
     pub fn from_points(points: &[CountPoint]) -> Result<Self, CalibrationError> {
         let mut counts: Vec<u16> = points.iter().map(|point| point.counts).collect();
         counts.sort_unstable();
@@ -88,13 +87,13 @@ impl CountLine {
         };
         let centre_counts = mean(|point| point.counts.into());
         let centre_deg = mean(|point| point.degrees);
-        // Measured from the centre, because large counts would cost digits.
+        // The sums count from the centre, because large counts would cost digits.
         let (across, along) = points.iter().fold((0.0, 0.0), |(across, along), point| {
             let deviation = f64::from(point.counts) - centre_counts;
             (across + deviation * (point.degrees - centre_deg), along + deviation * deviation)
         });
         let deg_per_count = across / along;
-        // NaN is refused too.
+        // The condition also refuses NaN.
         if deg_per_count.abs() >= FLAT_DEG && deg_per_count.is_finite() {
             Ok(Self { centre_counts, centre_deg, deg_per_count })
         } else {
@@ -102,14 +101,12 @@ impl CountLine {
         }
     }
 
-    /// The angle at which the sensor has these counts, degrees as the mount
-    /// counts.
+    /// Returns the angle at which the sensor has these counts, degrees of the mount.
     pub fn degrees(&self, counts: u16) -> f64 {
         self.centre_deg + (f64::from(counts) - self.centre_counts) * self.deg_per_count
     }
 
-    /// The counts nearest to an angle, degrees as the mount counts; `None` where they are
-    /// outside 0 to 65535.
+    /// Returns the counts nearest to an angle in degrees of the mount; `None` outside 0 to 65535.
     pub fn counts(&self, degrees: f64) -> Option<u16> {
         let counts = self.centre_counts + (degrees - self.centre_deg) / self.deg_per_count;
         let counts = counts.round();
@@ -121,7 +118,7 @@ impl CountLine {
         self.deg_per_count < 0.0
     }
 
-    /// How far each point lies above the line, degrees, in the order of `points`.
+    /// Returns how far each point lies above the line, degrees, in the order of `points`.
     pub fn residuals_deg(&self, points: &[CountPoint]) -> Vec<f64> {
         points.iter().map(|point| point.degrees - self.degrees(point.counts)).collect()
     }

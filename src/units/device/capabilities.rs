@@ -1,37 +1,36 @@
 //! Capabilities of a controller that the rest of the program needs to know.
 
-/// Capabilities of a controller, with the settings of its connection.
+/// Capabilities of a controller with its connection settings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Capabilities {
-    /// Names of the two jogged axes; empty for an absent one.
+    /// Names of the two axes of a jog; empty for an absent axis.
     pub axes: [&'static str; 2],
-    /// The unit can track a satellite from elements that it holds (on-board track).
+    /// `true` if the unit can track a satellite from elements that it holds (on-board track).
     pub has_program: bool,
-    /// The unit takes directions. Without this there is no go-to, no park and no program
+    /// `true` if the unit takes directions. Otherwise it has no go-to, no park and no program
     /// track.
     pub takes_positions: bool,
-    /// A direction that is off by this many degrees or less counts as reached.
+    /// Max distance from a direction at which it counts as reached, degrees.
     pub arrives_within_deg: f64,
-    /// The unit takes and reports positions in multiples of this many degrees; 0 for any.
+    /// Step of the positions that the unit takes and reports, degrees; 0 for any.
     pub position_step_deg: f64,
-    /// The unit reports azimuths on a circle, so an axis that runs past an end of a whole turn reads as
-    /// standing at the other end.
+    /// `true` if the unit reports azimuths on a circle. An axis that turns past an end of a whole
+    /// turn then seems to stand at the other end.
     pub azimuth_wraps: bool,
     pub second_axis: SecondAxis,
     pub jog: JogSpeeds,
-    /// Only one axis at a time is jogged.
+    /// `true` if a jog can turn only one axis at a time.
     pub jogs_one_axis: bool,
-    /// The unit can turn by single steps.
+    /// `true` if the unit can turn by single steps.
     pub steps: bool,
-    /// The unit ends a jog by itself, so an axis whose angle is not known may be jogged
-    /// too.
+    /// `true` if the unit's own timer ends a jog. Azel may then jog an axis whose angle is unknown.
     pub ends_jogs: bool,
-    /// Any question may take the panel away from somebody who stands in front of the unit,
-    /// so it is left alone until the operator connects to it.
+    /// `true` if any question may take the panel away from a person in front of the unit. Azel then
+    /// asks nothing until the operator connects to the unit.
     pub waits_for_word: bool,
     pub standstill: Standstill,
     pub effect: Effect,
-    /// A further effect of STOP, beyond stopping this antenna, as a sentence.
+    /// A further effect of STOP, in addition to stopping this antenna, as a sentence.
     pub stop_note: Option<&'static str>,
 }
 
@@ -40,10 +39,10 @@ pub struct Capabilities {
 pub enum SecondAxis {
     /// Elevation: together the two axes turn both angles of the sky.
     Elevation,
-    /// Something other than the antenna, named as in the middle of a sentence. The mount
-    /// ignores it; the elevation is neither read nor commanded.
+    /// Another device than the antenna, with its name for the middle of a sentence. The mount
+    /// ignores it, and Azel neither reads nor commands the elevation.
     Other(&'static str),
-    /// No second axis: the elevation is neither read nor commanded.
+    /// No second axis: Azel neither reads nor commands the elevation.
     Absent,
 }
 
@@ -53,64 +52,64 @@ impl Capabilities {
         self.second_axis == SecondAxis::Elevation
     }
 
-    /// Farthest reported rest from the position that an axis was sent to, degrees.
+    /// Returns the max reported distance between a resting axis and its target, degrees.
     pub fn rests_within_deg(self) -> f64 {
         self.arrives_within_deg + self.position_step_deg
     }
 
-    /// Number of axes that point the antenna.
+    /// Returns the number of axes that point the antenna.
     pub fn axis_count(self) -> usize {
         if self.has_elevation() { 2 } else { 1 }
     }
 }
 
-/// How to tell standstill from the slowest motion: by two positions that lie far enough
-/// apart in time for that motion to show, `1.5 * resolution_deg / slowest_deg_s` seconds.
-/// STOP is reported as unproved after 3 s, or after that time plus 1 s where this is
-/// longer; figures that keep that time below 2 s are reported in time.
+/// Figures that distinguish standstill from the slowest motion, by two positions. The time between
+/// the positions must let that motion show: `1.5 * resolution_deg / slowest_deg_s` seconds. Azel
+/// reports STOP as unproved after 3 s, or after that time plus 1 s if this is longer. A time below
+/// 2 s causes no delay.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Standstill {
     /// Step of the reported angles, degrees.
     pub resolution_deg: f64,
-    /// Slowest rate at which a motion of the unit runs on, degrees a second.
+    /// Min rate at which a motion of the unit continues, degrees a second.
     pub slowest_deg_s: f64,
-    /// Usual overrun after STOP, in seconds at the rate of the axis: half of the time in
-    /// which the axis slows down.
+    /// Typical overrun after STOP, in seconds at the rate of the axis: half of the time in which
+    /// the axis slows down.
     pub overrun_s: f64,
 }
 
-/// How to tell a motion without effect.
+/// Figures that reveal a motion without effect.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effect {
-    /// Longest time from a command to a position until the angle begins to change, or until it
-    /// goes on changing, seconds.
+    /// Max time from a command to a position until the angle starts or continues to change,
+    /// seconds.
     pub shows_after_s: f64,
-    /// The unit may ignore a command to a position that is nearer than this, degrees.
+    /// Distance to a commanded position below which the unit may ignore the command, degrees.
     pub ignores_deg: f64,
 }
 
 /// Jog speeds of a controller.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum JogSpeeds {
-    /// Any rate up to the highest that is allowed.
+    /// Any rate up to the allowed max.
     AnyRate,
-    /// Only these, the slowest first.
+    /// Only these speeds, the slowest first.
     Named(&'static [JogSpeed]),
 }
 
-/// A named speed; the unit knows no figure for it.
+/// A named speed; the unit gives no figure for it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JogSpeed {
     /// Name as on the front panel.
     pub name: &'static str,
-    /// Share of the highest allowed rate. It tells the speeds of one controller apart and
-    /// promises no rate.
+    /// Share of the max allowed rate. It distinguishes the speeds of one controller and promises no
+    /// rate.
     pub share: f64,
 }
 
 impl JogSpeeds {
-    /// The named speed nearest to a rate, where the highest rate is `maximum_rate_deg_s`;
-    /// `None` where any rate is possible.
+    /// Returns the named speed nearest to a rate, for the max rate `maximum_rate_deg_s`; `None` if
+    /// the unit takes any rate.
     pub fn nearest(self, rate_deg_s: f64, maximum_rate_deg_s: f64) -> Option<JogSpeed> {
         let Self::Named(speeds) = self else { return None };
         let share = rate_deg_s.abs() / maximum_rate_deg_s;

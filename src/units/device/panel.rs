@@ -11,7 +11,7 @@ use crate::name::{self, Name};
 /// One line that a unit reports about itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reading {
-    /// Text before the value. Each line needs a label of its own.
+    /// Label before the value, different for each line.
     pub label: Cow<'static, str>,
     /// Value as shown, with its unit.
     pub text: String,
@@ -21,12 +21,12 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// A plain line without a bar.
+    /// Returns a plain line without a bar.
     pub fn new(label: impl Into<Cow<'static, str>>, text: impl Into<String>) -> Self {
         Self { label: label.into(), text: text.into(), share: None, tone: Tone::Plain }
     }
 
-    /// Adds a bar that is full by `share`, 0 to 1.
+    /// Adds a bar with the fill `share`, 0 to 1.
     #[must_use]
     pub fn with_bar(self, share: f64) -> Self {
         Self { share: Some(share.clamp(0.0, 1.0)), ..self }
@@ -38,16 +38,16 @@ impl Reading {
     }
 }
 
-/// Tone in which a report or a command is shown.
+/// Tone of a report or a command in the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Tone {
     Plain,
-    /// A setting is to change, or something is to move.
+    /// A change of a setting, or a motion.
     Change,
     /// Good news, such as an accepted command.
     Good,
     Caution,
-    /// Wrong, or refused.
+    /// A fault or a refusal.
     Bad,
 }
 
@@ -57,22 +57,22 @@ pub struct Check {
     /// Name as the operator knows it.
     #[serde(deserialize_with = "name::one")]
     pub name: Name,
-    /// Shown after the name of a check that is good: what that means; may be empty.
+    /// Meaning of a good result, shown after the name of the check; may be empty.
     #[serde(deserialize_with = "name::one")]
     pub when_good: Name,
     pub state: CheckState,
-    /// The unit's own words where they say more than `state`; else empty.
+    /// The unit's own text if it says more than `state`; else empty.
     #[serde(rename = "told")]
     pub unit_text: Cow<'static, str>,
     /// Advice to the operator, as a sentence.
     #[serde(deserialize_with = "name::one")]
     pub advice: Name,
-    /// A fault here forbids all motion.
+    /// `true` if a fault of this check forbids all motion.
     pub locks_motion: bool,
 }
 
 impl Check {
-    /// A check that never forbids motion.
+    /// Returns a check that never forbids motion.
     pub const fn new(name: &'static str, state: CheckState, advice: &'static str) -> Self {
         let text = Cow::Borrowed("");
         Self { name, when_good: "", state, unit_text: text, advice, locks_motion: false }
@@ -87,7 +87,7 @@ impl Check {
 /// Result of a check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum CheckState {
-    /// Not reported.
+    /// A check that the unit has not reported.
     Unknown,
     Good,
     /// A warning.
@@ -100,15 +100,15 @@ pub enum CheckState {
 pub struct Action {
     /// Name in commands and logs.
     pub key: &'static str,
-    /// Text on its button.
+    /// Text on the button of the action.
     pub label: &'static str,
     /// Effect, in a sentence or two.
     pub description: &'static str,
-    /// Inputs that the window asks for.
+    /// Inputs for which the window asks.
     pub fields: &'static [Field],
-    /// The action may move the antenna, so it passes every rule of the gate.
+    /// `true` if the action may move the antenna: it then passes every rule of the gate.
     pub moves: bool,
-    /// Confirmation question, for an action that cannot be undone.
+    /// Confirmation question before an action that the operator cannot undo.
     pub question: Option<&'static str>,
 }
 
@@ -123,15 +123,15 @@ pub struct Act {
     pub values: Values,
 }
 
-/// Where an action leads the axes of the mount.
+/// Direction to which an action leads the axes of the mount.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Lead {
-    /// The mount's axes stay: nothing turns, or something else does.
+    /// No direction: the action turns no axis of the mount.
     Nowhere,
-    /// To these angles, degrees as the mount counts; `None` leaves an axis as it is.
+    /// These angles, degrees of the mount; `None` leaves an axis unchanged.
     To([Option<f64>; 2]),
-    /// Only the unit knows where, for this reason; the operator answers for it.
+    /// A direction that only the unit knows, for this reason; the operator is responsible for it.
     Unseen(&'static str),
-    /// Nobody knows where, for this reason; the action is not sent.
+    /// An unknown direction, for this reason; Azel does not send the action.
     Unknown(&'static str),
 }

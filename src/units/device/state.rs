@@ -1,4 +1,4 @@
-//! The state that all antennas have in common, as last read from the unit.
+//! The state that all antennas share, as last read from the unit.
 
 use std::{borrow::Cow, sync::Arc, time::Duration};
 
@@ -20,62 +20,62 @@ use crate::{
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct AntennaState {
     pub measured: Option<Measured>,
-    /// The unit's on-board track.
+    /// State of the unit's on-board track.
     pub program: Option<Program>,
-    /// Something other than the two axes turns, such as the polarization.
+    /// `true` if a part other than the two axes turns, such as the polarization.
     pub turns_besides: bool,
-    /// A fault forbids motion. `None` until the unit was asked on this link, and while the
-    /// name of a new fault is not known yet.
+    /// `true` if a fault forbids motion. `None` until Azel has asked the unit on this link, and
+    /// while the name of a new fault is unknown.
     pub motion_lock: Option<bool>,
-    /// Lower and upper end of each axis by the unit's own limits, degrees as the mount
-    /// counts; `None` where it reports none.
+    /// Lower and upper end of each axis from the unit's own limits, degrees of the mount; `None` if
+    /// the unit reports none.
     pub travel_deg: [Option<(f64, f64)>; 2],
-    /// The azimuth axis may reach a position either way round: clockwise or counter-clockwise.
+    /// `true` if the azimuth axis may reach a position either way round: clockwise or
+    /// counter-clockwise.
     #[serde(default)]
     pub may_turn_either_way: bool,
-    /// Limits of the azimuth axis, degrees from 0 to 360, which it does not cross; `None` for one that
-    /// is not known.
+    /// Limits of the azimuth axis, degrees from 0 to 360, which the axis does not cross; `None` for
+    /// an unknown limit.
     #[serde(default)]
     pub azimuth_limits_deg: [Option<f64>; 2],
-    /// When the present link came up. Older readings are from an earlier link.
+    /// Time at which the current link came up. Older readings are from an earlier link.
     pub link_since: Option<Instant>,
     /// Further readings for the panel, line by line.
     pub readings: Arc<[Reading]>,
-    /// Faults and warnings by name, where the unit reports them one by one.
+    /// Faults and warnings by name, if the unit reports them one by one.
     pub checks: Arc<[Check]>,
-    /// When [`Self::checks`] were read.
+    /// Time at which Azel read [`Self::checks`].
     pub checked_at: Option<Timestamp>,
     /// Questions that the operator can ask by hand.
     pub questions: Arc<[Question]>,
     pub on_board: OnBoard,
-    /// The satellite that the unit held when it was last read, on this link or an earlier one. Nothing is
-    /// judged by it.
+    /// Satellite that the unit held when Azel last read it, on this link or an earlier one. No
+    /// decision depends on it.
     #[serde(default)]
     pub last_satellite: Option<LastSatellite>,
-    /// Why the last position could not be read, as far as known, and what to do, in a
-    /// sentence or two.
+    /// Known reason why the last position could not be read, and advice, in a sentence or two.
     #[serde(deserialize_with = "name::option")]
     pub unreadable: Option<Name>,
-    /// Settings that were read, and the outcome of changes.
+    /// Settings that Azel has read, and the outcome of changes.
     #[serde(rename = "held", deserialize_with = "name::shared_map")]
     pub groups: Arc<GroupStates>,
-    /// Another unit answers, or one that needs a code first.
+    /// `true` if another unit answers, or a unit that needs a code first.
     pub is_other_device: bool,
     /// Identity that the unit reported on this link, with its firmware or names.
     pub identity: Option<String>,
-    /// Name that the unit gives itself, for the head of its card.
+    /// Name that the unit reports for itself, for the head of its card.
     pub unit_name: Option<String>,
     pub traffic: Traffic,
 }
 
 impl AntennaState {
-    /// The last position that was asked for on the present link.
+    /// Returns the last position that Azel requested on the current link.
     pub fn measured_on_link(&self) -> Option<Measured> {
         let start = self.link_since?;
         self.measured.filter(|measured| measured.requested >= start)
     }
 
-    /// The state of a group of settings, empty if it is new.
+    /// Returns the state of a group of settings, empty if it is new.
     pub(crate) fn group(&mut self, key: &'static str) -> &mut GroupState {
         Arc::make_mut(&mut self.groups).entry(key).or_default()
     }
@@ -94,7 +94,7 @@ impl AntennaState {
         }
     }
 
-    /// Forgets the results of all checks, not their names.
+    /// Clears the results of all checks, and keeps their names.
     pub(crate) fn forget_checks(&mut self) {
         self.checked_at = None;
         let unknown = |check: &Check| Check {
@@ -105,7 +105,7 @@ impl AntennaState {
         self.show_checks(self.checks.iter().map(unknown).collect());
     }
 
-    /// Records the end of a change. `is_followed`: another change of its group waits.
+    /// Records the end of a change. `is_followed` is `true` if another change of its group waits.
     pub(crate) fn end_change(
         &mut self,
         change: Change,
@@ -113,7 +113,7 @@ impl AntennaState {
         is_followed: bool,
         now: Moment,
     ) {
-        // Only the names of the fields: a value may be a secret.
+        // The log contains only the names of the fields, because a value may be a secret.
         let fields: Vec<_> = change.values.keys().collect();
         tracing::info!(group = change.group, ?fields, ?result, "settings");
         let state = self.group(change.group);
@@ -124,7 +124,7 @@ impl AntennaState {
     }
 }
 
-/// A satellite that a unit held when it was last read.
+/// A satellite that a unit held when Azel last read it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LastSatellite {
     pub name: String,
@@ -137,8 +137,8 @@ pub struct Measured {
     /// Time of the measurement, estimated from the round trip over the link.
     #[serde(rename = "at")]
     pub time: Timestamp,
-    /// When it was first asked for. The position may not show what the unit did after this
-    /// instant.
+    /// Time of the first request for the position. The position may not show the unit's actions
+    /// after this time.
     #[serde(rename = "asked")]
     pub requested: Instant,
     pub received: Instant,
@@ -147,15 +147,16 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// Angles of both axes, degrees as the mount counts; a missing elevation axis counts as
-    /// 0. `None` where an axis reports no angle.
+    /// Returns the angles of both axes, degrees of the mount; a missing elevation axis counts as 0.
+    /// `None` if an axis reports no angle.
     pub fn axes_deg(&self, has_elevation: bool) -> Option<[f64; 2]> {
         let [first, second] = self.axes.map(|axis| axis.angle_deg.filter(|deg| deg.is_finite()));
         Some([first?, if has_elevation { second? } else { 0.0 }])
     }
 
-    /// The same for a plan, where an axis without an angle at a limit stands at that end of its travel.
-    /// Motion needs [`Self::axes_deg`], because a limit need not be where the travel ends.
+    /// Returns the same for a plan, in which an axis without an angle at a limit stands at that end
+    /// of its travel. Motion needs [`Self::axes_deg`], because a limit need not be the end of the
+    /// travel.
     pub fn planned_axes_deg(
         &self,
         travel_deg: [(f64, f64); 2],
@@ -177,15 +178,15 @@ impl Measured {
 /// Direction of an antenna, as far as its unit reports it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pointing {
-    /// `None` without a sensor, or while its reading gives no angle.
+    /// Azimuth; `None` without a sensor, or while its reading gives no angle.
     pub azimuth: Option<Angle>,
-    /// `None` also where there is no elevation axis.
+    /// Elevation; `None` also without an elevation axis.
     pub elevation: Option<Angle>,
 }
 
 impl Pointing {
-    /// The direction for these angles of an elevation-over-azimuth mount, as far as they
-    /// are known. Beyond 90° of elevation it is over the zenith on the other side.
+    /// Returns the direction for the known angles of an elevation-over-azimuth mount. An elevation
+    /// beyond 90° points over the zenith to the other side.
     pub fn of_axes(azimuth: Option<Angle>, elevation: Option<Angle>) -> Self {
         let side = AzEl::of_axes(azimuth.unwrap_or_default(), elevation.unwrap_or_default());
         Self {
@@ -194,15 +195,15 @@ impl Pointing {
         }
     }
 
-    /// The direction, once both angles are known.
+    /// Returns the direction, once both angles are known.
     pub fn direction(self) -> Option<AzEl> {
         Some(AzEl { azimuth: self.azimuth?, elevation: self.elevation? })
     }
 }
 
 impl Pointing {
-    /// Angle from here to `other`: in the sky where all angles are known, else in azimuth
-    /// alone; `None` without an azimuth.
+    /// Returns the angle from here to `other`: in the sky if all angles are known, else in azimuth
+    /// only; `None` without an azimuth.
     pub fn separation(self, other: Self) -> Option<Angle> {
         if let (Some(here), Some(there_direction)) = (self.direction(), other.direction()) {
             return Some(here.separation(there_direction));
@@ -210,8 +211,8 @@ impl Pointing {
         Some((self.azimuth? - other.azimuth?).wrapped_180().abs())
     }
 
-    /// Angle from here to `aim` in the angles that `aim` has; `None` while one of them is missing
-    /// here.
+    /// Returns the angle from here to `aim` in the angles that `aim` has; `None` while one of them
+    /// is missing here.
     pub fn deviation(self, aim: Self) -> Option<Angle> {
         match aim {
             Self { azimuth: Some(azimuth), elevation: Some(elevation) } => {
@@ -235,7 +236,7 @@ impl From<AzEl> for Pointing {
 }
 
 impl Measured {
-    /// Direction of the antenna, once both angles are known.
+    /// Returns the direction of the antenna, once both angles are known.
     pub fn direction(&self) -> Option<AzEl> {
         self.pointing.direction()
     }
@@ -249,15 +250,15 @@ impl Measured {
 /// One axis as the unit reports it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
-    /// Degrees as the mount counts; `None` where unknown.
+    /// Angle in degrees of the mount; `None` if unknown.
     pub angle_deg: Option<f64>,
-    /// As the unit reports it, or as its angles show where it reports none: a standing axis
-    /// that is said to turn delays every proof of STOP, and the reverse raises an alarm.
+    /// Motion as the unit reports it, or as its angles show if it reports none. A false report of
+    /// motion delays every proof of STOP, and a false report of standstill raises an alarm.
     pub motion: AxisMotion,
     pub drive: Drive,
-    /// The limit switch at the upper end is set.
+    /// `true` if the limit switch at the upper end is set.
     pub plus_limit: bool,
-    /// The limit switch at the lower end is set.
+    /// `true` if the limit switch at the lower end is set.
     pub minus_limit: bool,
 }
 
@@ -265,11 +266,11 @@ pub struct Axis {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum AxisMotion {
     Still,
-    /// The angle grows.
+    /// Motion towards larger angles.
     Plus,
-    /// The angle shrinks.
+    /// Motion towards smaller angles.
     Minus,
-    /// A number without a known meaning: treat it as moving.
+    /// A number without a known meaning, which counts as motion.
     Unknown(i64),
 }
 
@@ -277,12 +278,12 @@ pub enum AxisMotion {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Drive {
-    /// Without power; the axis may still coast, or turn in the wind.
+    /// No power; the axis may still coast, or turn in the wind.
     Off,
     On,
-    /// On by a jog, of Azel or of somebody else.
+    /// Power from a jog, by Azel or by another operator.
     Jogged,
-    /// The axis turns without a command.
+    /// Motion of the axis without a command.
     Runaway,
 }
 
@@ -291,19 +292,19 @@ pub enum Drive {
 pub struct Program {
     pub enabled: bool,
     pub phase: Phase,
-    /// The program starts by itself when it is due; `None` where not reported.
+    /// `true` if the program starts unattended when it is due; `None` if not reported.
     pub auto: Option<bool>,
 }
 
 /// Phase of the unit's tracking program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Phase {
-    /// The window has not begun, or there is none.
+    /// A window that has not begun, or no window.
     OutOfWindow,
     Tracking,
-    /// The window is over.
+    /// A window that is over.
     Completed,
-    /// The antenna waits at the start of the pass.
+    /// An antenna that waits at the start of the pass.
     AtStart,
     /// A number without a known meaning.
     Unknown(i64),
@@ -314,26 +315,26 @@ pub enum Phase {
 pub struct Traffic {
     /// Good frames that answered a question.
     pub replies: u64,
-    /// Good frames that nobody asked for.
+    /// Good frames without a request.
     pub unsolicited: u64,
     /// Lines that were not good frames.
     pub damaged: u64,
-    /// Good frames whose content made no sense.
+    /// Good frames with invalid content.
     pub unreadable: u64,
     /// Questions without an answer in time.
     pub unanswered: u64,
     /// Good frames that differ from the document in a known way.
     pub odd: u64,
-    /// When the last good reply came in.
+    /// Time of the last good reply.
     pub last_reply: Option<Instant>,
-    /// When the last line came in that was no good frame, or whose content made no sense.
+    /// Time of the last line that was not a good frame or had an invalid content.
     pub last_unreadable: Option<Instant>,
-    /// When the last positions were given up, the oldest first.
+    /// Times at which Azel gave up the last missing positions, the oldest first.
     #[serde(default)]
     pub missed: [Option<Instant>; MISSED],
 }
 
-/// So many positions that are missing within [`MISSED_WITHIN`] are more than a hiccup.
+/// Number of missing positions within [`MISSED_WITHIN`] that shows a bad link.
 const MISSED: usize = 3;
 const MISSED_WITHIN: Duration = Duration::from_secs(10);
 

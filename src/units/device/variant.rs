@@ -1,5 +1,4 @@
-//! Capabilities, settings and actions of a unit, as the settings of its connection
-//! determine them.
+//! Capabilities, settings and actions of a unit with its connection settings.
 
 use super::{
     Capabilities, TrackOffsetFields,
@@ -7,8 +6,8 @@ use super::{
     settings::{Group, Values},
 };
 
-/// Capabilities, settings and actions of a unit. A make has several variants where the
-/// settings of the connection change them, such as for a rotator without elevation.
+/// Capabilities, settings and actions of a unit. A make has several variants if its connection
+/// settings change them, such as for a rotator without elevation.
 #[derive(Debug)]
 pub struct Variant {
     pub capabilities: Capabilities,
@@ -16,20 +15,20 @@ pub struct Variant {
     pub groups: &'static [&'static Group],
     /// Actions that only this unit has.
     pub actions: &'static [Action],
-    /// `None` for a unit that computes no tracks, or whose tracks cannot be shifted.
+    /// Track offsets; `None` for a unit that computes no tracks, or whose tracks cannot be shifted.
     pub track_offsets: Option<&'static TrackOffsetFields>,
-    /// `None` for a unit without a clock.
+    /// Clock; `None` for a unit without a clock.
     pub clock: Option<&'static ClockSetting>,
 }
 
-/// How a unit's clock is set.
+/// Description of a unit's clock setting.
 #[derive(Debug)]
 pub struct ClockSetting {
     /// Key of the settings group of the clock.
     pub group: &'static str,
-    /// Values of that group that set the clock from this computer.
+    /// Function that returns the values of that group that set the clock from this computer.
     pub from_here: fn() -> Values,
-    /// Returns `true` if the unit sets its clock by itself, by the values of that group.
+    /// Test of the values of that group: `true` if the unit sets its own clock.
     pub is_kept_by_unit: fn(&Values) -> bool,
 }
 

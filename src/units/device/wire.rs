@@ -1,5 +1,4 @@
-//! Lines on a link, fit to be stored and shown: secrets are removed before a line gets
-//! here.
+//! Lines on a link, safe to store and show: secrets are removed before a line is recorded.
 
 use std::{borrow::Cow, collections::VecDeque, time::Duration};
 
@@ -9,34 +8,34 @@ use serde::{Deserialize, Serialize};
 use super::panel::Tone;
 use crate::clock::Moment;
 
-/// Maximum number of lines that wait; beyond it the oldest are dropped.
+/// Max number of pending lines; the queue drops older lines.
 const MAX_WAITING: usize = 4096;
 
 /// One line of the traffic with a unit.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct WireLine {
-    /// UTC when it was sent, or received in whole.
+    /// UTC time at which the line was sent, or completely received.
     #[serde(rename = "at")]
     pub time: Timestamp,
     pub direction: Direction,
-    /// Bytes of the line with its end, without secrets; at most a kilobyte. Empty when no
-    /// reply came: see [`Finding::NoReply`].
+    /// Bytes of the line with its end, without secrets; at most a kilobyte. Empty for a missing
+    /// reply: see [`Finding::NoReply`].
     pub bytes: Box<[u8]>,
     /// Length on the wire, bytes.
     pub length: usize,
-    /// `bytes` is not the whole line.
+    /// `true` if `bytes` is only a part of the line.
     pub is_shortened: bool,
     pub finding: Finding,
-    /// `None` where the line is damaged, or the make has no words for it.
+    /// Meaning; `None` for a damaged line, or if the make has no words for the line.
     pub meaning: Option<Meaning>,
-    /// For a reply: time since its request.
+    /// Time of a reply since its request.
     pub reply_after: Option<Duration>,
-    /// The line belongs to a question that is repeated automatically.
+    /// `true` if the line belongs to a question that Azel repeats automatically.
     pub is_poll: bool,
 }
 
 impl WireLine {
-    /// A whole line without further details.
+    /// Returns a whole line without further details.
     pub fn new(direction: Direction, bytes: &[u8], finding: Finding, time: Timestamp) -> Self {
         Self {
             time,
@@ -67,7 +66,7 @@ pub struct Meaning {
 }
 
 impl Meaning {
-    /// A plain question or report.
+    /// Returns the meaning of a plain question or report.
     pub const fn plain(text: &'static str) -> Self {
         Self { tone: Tone::Plain, text: Cow::Borrowed(text) }
     }
@@ -76,7 +75,7 @@ impl Meaning {
 /// A line split into its values.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Explained {
-    /// Name of such a line in the document; `None` where it is not in there.
+    /// Name of such a line in the document; `None` if the document has no such line.
     pub name: Option<&'static str>,
     /// Values in the order of the line.
     pub values: Vec<ExplainedValue>,
@@ -97,9 +96,9 @@ pub struct ExplainedValue {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Direction {
-    /// To the unit.
+    /// Line to the unit.
     Sent,
-    /// From the unit.
+    /// Line from the unit.
     Received,
 }
 
@@ -110,7 +109,7 @@ pub enum Finding {
     Good,
     /// A good frame of a protocol without checksums.
     Unchecked,
-    /// A frame whose checksum is not that of its payload.
+    /// A frame whose checksum does not match its payload.
     BadChecksum {
         /// Checksum in the line.
         received: u8,
@@ -119,19 +118,19 @@ pub enum Finding {
     },
     /// A frame without a checksum.
     NoChecksum,
-    /// Not even the beginning of a frame.
+    /// A line without even the beginning of a frame.
     NoHeader,
-    /// Too long for a frame.
+    /// A line that is too long for a frame.
     TooLong,
-    /// The checksum is right, but some bytes are not text.
+    /// A line with the right checksum in which some bytes are not text.
     NotText,
-    /// The link ended before the line did.
+    /// A line that the end of the link has cut off.
     Unfinished,
-    /// No line: a reply did not come in time.
+    /// No line: a reply that did not come in time.
     NoReply {
         /// Waiting time for the reply.
         waited: Duration,
-        /// The question is sent a second time.
+        /// `true` if Azel sends the question again.
         is_repeated: bool,
     },
 }
@@ -143,7 +142,7 @@ impl Finding {
     }
 }
 
-/// Lines that wait for the session.
+/// Lines that wait for the session to take them.
 #[derive(Debug, Default)]
 pub(crate) struct WireQueue(VecDeque<WireLine>);
 
@@ -155,7 +154,7 @@ impl WireQueue {
         self.0.push_back(line);
     }
 
-    /// Adds a line for a missing reply. `is_repeated`: the question goes out again.
+    /// Adds a line for a missing reply. `is_repeated` is `true` if Azel sends the question again.
     pub(crate) fn no_reply(&mut self, waited: Duration, is_repeated: bool, now: Moment) {
         let finding = Finding::NoReply { waited, is_repeated };
         self.push(WireLine::new(Direction::Received, &[], finding, now.utc));

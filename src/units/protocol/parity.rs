@@ -1,17 +1,17 @@
 //! Even parity in software, for ports and servers that carry eight data bits without
 //! parity.
 
-/// Where the parity of the line (seven data bits, even parity) is made.
+/// Place where the parity of the line (seven data bits, even parity) is generated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Parity {
-    /// In the port, or nowhere: bytes pass unchanged.
+    /// Parity of the port, or no parity: bytes pass unchanged.
     #[default]
     Port,
-    /// In this module: the eighth bit carries the parity.
+    /// Parity from this module, in the eighth bit.
     Software,
 }
 
-/// Replaces a character with wrong parity; never part of a frame.
+/// Byte that replaces a character with wrong parity; never part of a frame.
 const BROKEN: u8 = 0xff;
 
 impl Parity {
@@ -25,8 +25,8 @@ impl Parity {
         }
     }
 
-    /// Takes the parity off `bytes` from the port. A character with wrong parity becomes one
-    /// that no frame has.
+    /// Removes the parity from `bytes` of the port. A character with wrong parity becomes a byte
+    /// that no frame contains.
     pub fn check(self, bytes: &mut [u8]) {
         if self == Self::Software {
             for byte in bytes {

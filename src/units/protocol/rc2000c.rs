@@ -1,13 +1,13 @@
 //! Codec of the RC2000C antenna controller (Research Concepts, SA-bus on a
 //! serial line).
 //!
-//! Bytes become [`Frame`]s in [`Decoder`]; a frame becomes a [`Reply`] on the
-//! console's side or a [`Request`] on the simulator's side; a request becomes
-//! bytes. Nothing here does I/O, knows the time or fails on any input.
+//! [`Decoder`] converts bytes to [`Frame`]s. A frame becomes a [`Reply`] for the console or a
+//! [`Request`] for the simulator; a request becomes bytes. This module does no I/O, uses no time
+//! and accepts any input without a failure.
 //!
-//! Facts come from appendices D and E of the vendor's manual, cited as
-//! "appendix D" and "appendix E". An acknowledgement says that a command was
-//! understood, never that it was carried out: only a later status tells.
+//! Facts come from appendices D and E of the vendor's manual, cited as "appendix D" and "appendix
+//! E". An acknowledgement says that the unit understood a command. Only a later status shows
+//! whether the unit carried it out.
 
 mod address;
 mod frame;

@@ -1,14 +1,13 @@
 //! Codec of the Rotator Genius (4O3A, TCP port 9006), protocol "rev. 4".
 //!
-//! A [`Decoder`] turns bytes into [`Received`]s on the console's side; a
-//! [`Request`] becomes bytes there and is read back by [`Request::parse`] on the
-//! simulator's side. Nothing here does I/O, knows the time or fails on any input.
+//! On the console's side, a [`Decoder`] converts bytes to [`Received`]s, and a [`Request`] becomes
+//! bytes. On the simulator's side, [`Request::parse`] reads a request. This module does no I/O,
+//! uses no time and accepts any input without a failure.
 //!
-//! Facts come from the vendor's document "4O3A Signature Rotator Genius TCP
-//! protocol, rev. 4", cited as "section 1.1", and from status replies recorded
-//! at two stations. The stream has no lengths and no terminators, and holds raw
-//! zero bytes. Units send a status of 72 bytes where the document's example
-//! has 64, so its form is decided by what stands at fixed places.
+//! Facts come from the vendor's document "4O3A Signature Rotator Genius TCP protocol, rev. 4",
+//! cited as "section 1.1", and from status replies recorded at two stations. The stream has no
+//! lengths and no terminators, and contains raw zero bytes. Units send a status of 72 bytes, but
+//! the document's example has 64, so the decoder recognises the form by the bytes at fixed places.
 
 mod configuration;
 mod decoder;

@@ -1,12 +1,12 @@
 //! Codec of Hamlib's rotctld protocol (TCP port 4533), for a server and for a client.
 //!
 //! A server cuts bytes into [`Line`]s, reads each line as a [`Command`] and answers it with a
-//! [`Reply`]. A client sends [`Request`]s, one at a time, and reads the lines of each answer with
-//! a [`Reader`]. Nothing here does I/O, knows the time or fails on any input.
+//! [`Reply`]. A client sends [`Request`]s, one at a time, and reads the lines of each answer with a
+//! [`Reader`]. This module does no I/O, uses no time and accepts any input without a failure.
 //!
-//! Facts come from rotctld 4.5.4, tried byte by byte, and from the source of Hamlib 4.7. Hamlib
-//! reads characters where this codec reads lines: no client is known that sends a command without
-//! its line feed, and in Hamlib surplus arguments are carried out as further commands.
+//! Facts come from tests of rotctld 4.5.4 byte by byte, and from the source of Hamlib 4.7. Hamlib
+//! reads characters, but this codec reads lines: no known client sends a command without its line
+//! feed. Hamlib also carries out surplus arguments as further commands.
 
 mod command;
 mod error_code;

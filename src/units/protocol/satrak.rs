@@ -1,13 +1,12 @@
 //! Codec of the Satrak antenna controller unit (SVS, TCP port 4001).
 //!
-//! Bytes become [`Frame`]s in [`Decoder`]; a frame becomes a [`Reply`] on the
-//! console's side or a [`Request`] on the simulator's side; a request becomes
-//! bytes. Nothing here does I/O, knows the time or fails on any input.
+//! [`Decoder`] converts bytes to [`Frame`]s. A frame becomes a [`Reply`] for the console or a
+//! [`Request`] for the simulator; a request becomes bytes. This module does no I/O, uses no time
+//! and accepts any input without a failure.
 //!
-//! Facts come from the vendor's document "SATRAK Communication Protocol"; its
-//! sections are cited as "section 6". Where the document contradicts itself
-//! (a comma more or less after `?`, 15 or 16 status fields), both forms are
-//! read and the safer one is sent.
+//! Facts come from the vendor's document "SATRAK Communication Protocol"; its sections are cited as
+//! "section 6". The document contradicts itself in places (a comma more or less after `?`, 15 or 16
+//! status fields). Azel reads both forms there, and sends the safer form.
 
 mod clock;
 mod coded;

@@ -16,8 +16,8 @@ use crate::{
 /// A whole turn of an azimuth axis, degrees.
 const TURN_DEG: f64 = 360.0;
 
-/// Permanent id of an antenna in the station file: it stays when the name or address
-/// changes. No two antennas of a station have the same.
+/// Permanent id of an antenna in the station file, unique in the station. It stays when the name or
+/// address changes.
 #[derive(
     Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, serde::Deserialize,
 )]
@@ -28,7 +28,7 @@ impl AntennaId {
     /// Id of a station's first antenna.
     pub const FIRST: Self = Self(1);
 
-    /// The first id from `first` on that is not in `used`.
+    /// Returns the first id from `first` on that is not in `used`.
     #[must_use]
     pub fn free(first: Self, used: &[Self]) -> Self {
         let mut id = first;
@@ -43,11 +43,11 @@ impl AntennaId {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Antenna {
     pub id: AntennaId,
-    /// Shown on its chip.
+    /// Name on the chip of the antenna.
     pub name: String,
     pub connection: Connection,
-    /// Connects at every start to a unit that otherwise waits for Connect. Connecting interrupts anyone
-    /// at its panel.
+    /// `true` to connect at every start to a unit that otherwise waits for Connect. Connecting
+    /// interrupts anyone at the panel of the unit.
     #[serde(skip_serializing_if = "is_default")]
     pub connects_at_start: bool,
     pub mount: Mount,
@@ -61,17 +61,16 @@ pub struct Antenna {
     /// Pointing model of an az/el mount, for program track and for the bounds.
     #[serde(skip_serializing_if = "PointingModel::is_none")]
     pub pointing_model: PointingModel,
-    /// Reaction of the monitor when somebody else drives the antenna into a forbidden
-    /// direction.
+    /// Reaction of the monitor when another operator drives the antenna into a forbidden direction.
     #[serde(skip_serializing_if = "is_default")]
     pub monitor: Monitor,
-    /// Largest sway between two positions of a standing antenna, degrees, 0 to 2.
+    /// Max sway between two positions of a standing antenna, degrees, 0 to 2.
     #[serde(skip_serializing_if = "is_default_sway")]
     pub sway_deg: f64,
-    /// Action on an intent when the link is back after an outage.
+    /// Action on an intent when the link returns after an outage.
     #[serde(skip_serializing_if = "is_default")]
     pub resume: Resume,
-    /// Outage after which the operator is asked in any case, seconds, 0 to 600.
+    /// Outage after which Azel asks the operator in any case, seconds, 0 to 600.
     #[serde(skip_serializing_if = "is_default_outage")]
     pub resume_after_s: f64,
     #[serde(flatten)]
@@ -81,7 +80,7 @@ pub struct Antenna {
     pub upkeep: Upkeep,
 }
 
-// The signatures are serde's.
+// serde prescribes the signatures.
 #[allow(clippy::trivially_copy_pass_by_ref)]
 fn is_default_sway(sway_deg: &f64) -> bool {
     sway_deg.total_cmp(&DEFAULT_SWAY_DEG).is_eq()
@@ -95,35 +94,35 @@ fn is_default_outage(resume_after_s: &f64) -> bool {
 /// A direction in the station file.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Direction {
-    /// From north over east, degrees, 0 to 360.
+    /// Azimuth from north over east, degrees, 0 to 360.
     pub azimuth_deg: f64,
-    /// From the horizon, degrees, 0 to 90.
+    /// Elevation from the horizon, degrees, 0 to 90.
     pub elevation_deg: f64,
 }
 
-/// Motion limits: what the operator allows of a mount.
+/// Motion limits that the operator sets for a mount.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MotionLimits {
-    /// Lowest elevation that is commanded, degrees, 0 to 90.
+    /// Min commanded elevation, degrees, 0 to 90.
     pub minimum_elevation_deg: f64,
-    /// Fastest jog of an axis, degrees a second, above 0 to 30.
+    /// Max jog rate of an axis, degrees a second, above 0 to 30.
     pub maximum_rate_deg_s: f64,
-    /// Largest single step of an axis, degrees, above 0 to 90.
+    /// Max single step of an axis, degrees, above 0 to 90.
     pub maximum_step_deg: f64,
 }
 
 /// Rates at which a controller asks for the state.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PollRates {
-    /// While the antenna stands, per second, 2 to 10. Motion by hand needs a position
-    /// younger than a second.
+    /// Rate while the antenna stands, per second, 2 to 10. Motion by hand needs a position younger
+    /// than a second.
     pub idle_hz: f64,
-    /// While it moves or tracks, per second, 2 to 10.
+    /// Rate while the antenna moves or tracks, per second, 2 to 10.
     pub moving_hz: f64,
 }
 
 impl PollRates {
-    /// Time between two questions.
+    /// Returns the time between two questions.
     pub fn period(&self, moving: bool) -> Duration {
         let rate = if moving { self.moving_hz } else { self.idle_hz };
         // A rate that is out of range or not a number must not stop polling.
@@ -132,14 +131,14 @@ impl PollRates {
 }
 
 impl Antenna {
-    /// Time in which each axis gets from one end of its travel to the other, seconds.
+    /// Returns the longer time in which an axis travels from one end to the other, seconds.
     pub fn longest_slew_s(&self) -> f64 {
         let spans = self.mount.travel_deg().map(|(from_deg, to_deg)| to_deg - from_deg);
         spans.into_iter().fold(0.0, f64::max) / self.limits.maximum_rate_deg_s
     }
 
-    /// The mount as program track uses it. A pointing model holds on this side of the zenith. Targets
-    /// keep away from ends past which the azimuth would wrap.
+    /// Returns the mount for program track. A pointing model is valid only on this side of the
+    /// zenith. Targets keep away from ends past which the azimuth would wrap.
     pub fn track_mount(&self) -> Mount {
         let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } = self.mount else {
             return self.mount;
@@ -150,21 +149,22 @@ impl Antenna {
         self.mount.clipped([Some(azimuth_deg), Some((f64::MIN, top_deg))])
     }
 
-    /// Distance of a target from either end at which an axis that comes to rest past its target still
-    /// reads as being at this end, degrees. The directions that the travel leaves out are room too.
+    /// Returns the margin between a target and either end, degrees. With this margin, an axis that
+    /// rests past its target still reads as being at this end. Directions outside the travel add to
+    /// it.
     fn wrap_margin_deg(&self, travel_deg: f64) -> f64 {
         let can = self.connection.variant().capabilities;
         let room_deg = (TURN_DEG - travel_deg).max(0.0) / 2.0;
         if can.azimuth_wraps { (can.rests_within_deg() - room_deg).max(0.0) } else { 0.0 }
     }
 
-    /// The pointing model that program track and the bounds apply.
+    /// Returns the pointing model that program track and the bounds apply.
     pub fn track_model(&self) -> PointingModel {
         match self.mount {
             Mount::AzEl { .. } if self.connection.variant().capabilities.has_elevation() => {
                 self.pointing_model
             }
-            // Without an elevation axis nothing tells the other terms.
+            // Without an elevation axis, the other terms are unknown.
             Mount::AzEl { .. } => PointingModel {
                 azimuth_offset_deg: self.pointing_model.azimuth_offset_deg,
                 ..PointingModel::default()
@@ -173,23 +173,22 @@ impl Antenna {
         }
     }
 
-    /// Time from the end of one pass until it can go to the next, seconds.
+    /// Returns the time from the end of one pass until the antenna can go to the next, seconds.
     pub fn set_up_s(&self) -> f64 {
         self.automatic.set_up_s.unwrap_or(self.connection.spec().defaults.set_up_s)
     }
 
-    /// Creates the controller; it is silent until its link is up.
+    /// Creates the controller, which is silent until its link is up.
     pub fn controller(&self) -> Box<dyn Controller> {
         (self.connection.spec().open)(self)
     }
 
-    /// Returns `true` if two names are too alike for the operator to tell two antennas
-    /// apart.
+    /// Returns `true` if two names are too similar for the operator to distinguish the antennas.
     pub fn same_name(a: &str, b: &str) -> bool {
         a.trim().to_lowercase() == b.trim().to_lowercase()
     }
 
-    /// `name`, or if another antenna has it, `name` with the first free number from 2.
+    /// Returns `name`, or `name` with the first free number from 2 if another antenna has the name.
     pub fn free_name(name: &str, others: &[&str]) -> String {
         let is_free = |name: &String| others.iter().all(|other| !Self::same_name(name, other));
         let numbered = (2_u32..).map(|number| format!("{name} {number}"));

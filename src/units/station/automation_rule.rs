@@ -1,25 +1,25 @@
-//! Automation rules: what the schedule does with passes by antenna, satellite, Sun and hour.
+//! Automation rules: decisions of the schedule about passes, by antenna, satellite, Sun and hour.
 
 use jiff::{Timestamp, tz::TimeZone};
 use serde::{Deserialize, Serialize};
 
 use super::{AntennaId, HoursOfDay};
 
-/// A rule. The first rule that is on and whose conditions all hold decides.
+/// A rule. The first enabled rule with matching conditions decides.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AutomationRule {
     #[serde(rename = "on", default = "enabled_by_default", skip_serializing_if = "is_enabled")]
     pub is_on: bool,
-    /// `None` for all antennas.
+    /// Antenna of the rule; `None` for all antennas.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub antenna: Option<AntennaId>,
-    /// `None` for all satellites.
+    /// Satellites of the rule; `None` for all satellites.
     #[serde(flatten)]
     pub subject: Option<RuleSubject>,
-    /// `None` whatever the Sun does.
+    /// Position of the Sun; `None` for any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sun: Option<SunIs>,
-    /// By UTC; `None` for all hours.
+    /// Hours in UTC; `None` for all hours.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hours: Option<HoursOfDay>,
     #[serde(rename = "then")]
@@ -36,7 +36,7 @@ pub enum RuleSubject {
     Group(String),
 }
 
-/// The Sun at the site.
+/// Position of the Sun at the site.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SunIs {
@@ -48,11 +48,11 @@ pub enum SunIs {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RuleAction {
-    /// The pass may be taken, whatever the limits of its satellite say.
+    /// Permission to take the pass, even outside the limits of its satellite.
     Take,
-    /// The antenna does not take the pass.
+    /// Refusal of the pass.
     Leave,
-    /// The antenna takes no pass and stays parked.
+    /// Refusal of all passes; the antenna stays parked.
     Park,
 }
 
@@ -60,21 +60,21 @@ fn enabled_by_default() -> bool {
     true
 }
 
-// The signature is serde's.
+// serde prescribes the signature.
 #[allow(clippy::trivially_copy_pass_by_ref)]
 fn is_enabled(is_on: &bool) -> bool {
     *is_on == enabled_by_default()
 }
 
 impl AutomationRule {
-    /// Returns `true` if it holds at a moment, where the Sun stands as given.
+    /// Returns `true` if the rule applies at `time` with the Sun at `sun`.
     pub fn holds_at(&self, time: Timestamp, sun: SunIs) -> bool {
         self.is_on
             && self.sun.is_none_or(|side| side == sun)
             && self.hours.is_none_or(|hours| hours.contain(time, &TimeZone::UTC))
     }
 
-    /// Returns `true` if it is about this antenna.
+    /// Returns `true` if the rule covers this antenna.
     pub fn is_for(&self, antenna: AntennaId) -> bool {
         self.antenna.is_none_or(|antenna_id| antenna_id == antenna)
     }

@@ -11,19 +11,19 @@ use crate::device::{
     settings::{Unfit, Value},
 };
 
-/// Make, address and the settings that the make has.
+/// Make, address and the settings of the make.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Connection {
     spec: &'static ControllerSpec,
-    /// A host and a port such as `192.168.10.21:4001`, or a serial port such as
-    /// `/dev/ttyUSB0` or `COM3`.
+    /// Host and port such as `192.168.10.21:4001`, or a serial port such as `/dev/ttyUSB0` or
+    /// `COM3`.
     pub address: String,
-    /// In the order of the make's settings.
+    /// Values in the order of the make's settings.
     values: Vec<Value>,
 }
 
 impl Connection {
-    /// A connection to `address` with default settings.
+    /// Returns a connection to `address` with default settings.
     pub(super) fn new(spec: &'static ControllerSpec, address: &str) -> Self {
         let values = spec.settings.iter().map(|setting| (setting.default)()).collect();
         Self { spec, address: address.to_owned(), values }
@@ -33,17 +33,17 @@ impl Connection {
         self.spec
     }
 
-    /// The unit's variant with these settings.
+    /// Returns the unit's variant with these settings.
     pub fn variant(&self) -> &'static Variant {
         (self.spec.variant)(self)
     }
 
-    /// The value of a setting; `None` where the make does not have the setting.
+    /// Returns the value of a setting; `None` if the make does not have the setting.
     pub fn value(&self, setting: &Setting) -> Option<&Value> {
         self.place(setting).and_then(|place| self.values.get(place))
     }
 
-    /// The text or word of a setting; empty where it holds neither.
+    /// Returns the text or word of a setting; empty if the setting has neither.
     pub fn text(&self, setting: &Setting) -> &str {
         match self.value(setting) {
             Some(Value::Text(text)) => text,
@@ -51,7 +51,8 @@ impl Connection {
         }
     }
 
-    /// The whole number or the code of a setting; 0 where it holds neither, or none that fits.
+    /// Returns the whole number or the code of a setting; 0 if it has neither, or does not fit in a
+    /// `u32`.
     pub fn whole(&self, setting: &Setting) -> u32 {
         match self.value(setting) {
             Some(Value::Integer(number) | Value::Choice(number)) => {
@@ -61,7 +62,7 @@ impl Connection {
         }
     }
 
-    /// The points of a setting; empty where it holds none.
+    /// Returns the points of a setting; empty if the setting has none.
     pub fn points(&self, setting: &Setting) -> &[CountPoint] {
         let Some(Value::Points(points)) = self.value(setting) else { return &[] };
         points
@@ -78,8 +79,8 @@ impl Connection {
         self.element_file_setting().map_or(Ok(()), |setting| self.put(setting, file))
     }
 
-    /// Returns `true` if both reach a unit in the same way. The name of the element file is no part of
-    /// that.
+    /// Returns `true` if both connections reach a unit in the same way. The name of the element
+    /// file does not matter.
     pub fn is_same_link(&self, other: &Self) -> bool {
         let mut other = other.clone();
         let file = self.element_file_setting().and_then(|setting| self.place(setting));
@@ -96,8 +97,8 @@ impl Connection {
         self.spec.settings.iter().copied().find(|setting| setting.field.key == key)
     }
 
-    /// Sets a value. If the setting cannot hold it, or the make does not have the setting,
-    /// nothing changes. The reason is worded to follow the name of the setting.
+    /// Sets a value. Changes nothing if the setting cannot hold the value, or if the make does not
+    /// have the setting. The reason in the error completes the name of the setting.
     pub fn put(&mut self, setting: &Setting, value: impl Into<Value>) -> Result<(), Unfit> {
         let value = value.into();
         setting.field.kind.check(&value)?;
@@ -132,7 +133,7 @@ impl Serialize for Connection {
 
 type SettingEntry<'a> = (&'static Setting, &'a Value);
 
-/// The settings of one table and their values.
+/// The settings of one table with their values.
 struct OfTable<'a>(&'a [SettingEntry<'a>]);
 
 impl Serialize for OfTable<'_> {
@@ -163,13 +164,13 @@ pub fn check_address(address: &str) -> Result<(), &'static str> {
     }
 }
 
-/// Checks that `address` is a serial port, or a host and a port; returns the reason if it
-/// is neither.
+/// Checks that `address` is a serial port, or a host and a port; returns the reason if it is
+/// neither.
 pub(crate) fn check_line(address: &str) -> Result<(), &'static str> {
     if address.is_empty() {
         return Err("must be a serial port, such as /dev/ttyUSB0 or COM3, or a host and a port");
     }
-    // Port names by their place on the machine hold colons too.
+    // Paths of serial ports may contain colons too.
     let is_port = address.starts_with(['/', '\\']) || !address.contains(':');
     if is_port { Ok(()) } else { check_address(address) }
 }

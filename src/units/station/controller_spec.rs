@@ -1,5 +1,5 @@
-//! The description of a make of controller: the station file, the forms, the links and the
-//! window are driven by it.
+//! The description of a make of controller, on which the station file, the forms, the links and the
+//! window depend.
 
 use std::fmt;
 
@@ -13,82 +13,82 @@ use crate::{
     device::{Controller, ElementFiles, Explained, Variant, WireLine},
 };
 
-/// A make of controller. Everything that an antenna of it needs follows from
-/// here, but for its simulator, which is no part of a station.
+/// A make of controller. It describes everything that an antenna of this make needs, except the
+/// simulator, which is no part of a station.
 pub struct ControllerSpec {
     /// Key in the station file.
     pub key: &'static str,
-    /// Name on the box.
+    /// Name of the product.
     pub name: &'static str,
-    /// Name of an antenna that has no other name.
+    /// Default name of an antenna.
     pub short_name: &'static str,
-    /// Link over which Azel reaches it.
+    /// Link over which Azel reaches the unit.
     pub link: Link,
-    /// Address at which it answers as it leaves the factory, or else an example.
+    /// Factory address of the unit, or else an example.
     pub default_address: &'static str,
-    /// Figures of an antenna of which nothing else is known.
+    /// Default figures of an antenna.
     pub defaults: DefaultFigures,
-    /// Settings of its connection besides the address, in the order of the file.
+    /// Settings of the connection besides the address, in the order of the file.
     pub settings: &'static [&'static Setting],
-    /// Why it may have refused or closed the connection, in a sentence.
+    /// Likely reason why the unit has refused or closed the connection, as a sentence.
     pub closed_note: Option<&'static str>,
-    /// How it is given files of elements, where it takes any.
+    /// Transfer of element files; `None` if the make takes none.
     pub element_files: Option<&'static ElementFiles>,
-    /// Takes a line of its link apart, where it can.
+    /// Function that splits a line of the link into values; `None` if the make has none.
     pub explain: Option<fn(&WireLine) -> Explained>,
-    /// Why something that was typed, in capitals, is none of
-    /// [`AntennaState::questions`](crate::device::AntennaState::questions); a sentence or
-    /// two. `None` where there is no more to say than that it is none.
+    /// Function that explains why a typed text, in capitals, is none of
+    /// [`AntennaState::questions`](crate::device::AntennaState::questions), in a sentence or two.
+    /// `None` if there is no explanation.
     pub why_no_question: Option<fn(&str) -> String>,
-    /// All that its units can be.
+    /// All variants of the units.
     pub variants: &'static [&'static Variant],
-    /// Returns the variant of a unit by the settings of its connection.
+    /// Function that returns the variant of a unit with the settings of its connection.
     pub variant: fn(&Connection) -> &'static Variant,
-    /// The controller of an antenna whose connection is of this make. Silent until
-    /// its link is up.
+    /// Function that creates the controller of an antenna of this make, silent until its link is
+    /// up.
     pub open: fn(&Antenna) -> Box<dyn Controller>,
 }
 
 /// Link over which Azel reaches a controller.
 #[derive(Debug, Clone, Copy)]
 pub enum Link {
-    /// TCP: its address is a host and a port.
+    /// TCP, with a host and a port as address.
     Tcp,
-    /// A serial line of seven bits and even parity: its address is a serial port,
-    /// or the host and port of a serial server that hands the bytes on.
+    /// Serial line of seven bits and even parity. Its address is a serial port, or the host and
+    /// port of a serial server that passes the bytes on.
     Line {
-        /// The setting that holds the speed, bits a second.
+        /// Setting with the line speed, bits a second.
         baud: &'static Setting,
     },
 }
 
-/// The figures of an antenna that a make can know.
+/// Default figures for the antennas of a make.
 #[derive(Debug, Clone, Copy)]
 pub struct DefaultFigures {
-    /// How the axes are arranged. A station changes only the ends of their travel.
+    /// Arrangement of the axes. A station changes only the ends of their travel.
     pub mount: Mount,
     /// Full width of the beam at half power, degrees.
     pub beam_width_deg: f64,
-    /// Where Park sends the antenna.
+    /// Park position.
     pub park: Direction,
     /// Limits of the mount.
     pub limits: MotionLimits,
-    /// How often the controller is asked.
+    /// Rates at which Azel asks the controller.
     pub poll: PollRates,
-    /// How this program follows a target with it.
+    /// Settings for program track.
     pub follow: TrackSettings,
-    /// Time from the end of one pass until it can go to the next, seconds: what has to be
-    /// loaded and read back, and the halt before it.
+    /// Time from the end of one pass until the antenna can go to the next, seconds. It covers the
+    /// halt, and the transfer and read-back of the next target.
     pub set_up_s: f64,
 }
 
 impl ControllerSpec {
-    /// A connection to `address` with the usual settings.
+    /// Returns a connection to `address` with default settings.
     pub fn connection(&'static self, address: &str) -> Connection {
         Connection::new(self, address)
     }
 
-    /// An antenna at `address` with the usual settings and figures.
+    /// Returns an antenna at `address` with default settings and figures.
     pub fn antenna(&'static self, name: &str, address: &str) -> Antenna {
         let DefaultFigures { mount, beam_width_deg, park, limits, poll, follow, .. } =
             self.defaults;
@@ -113,13 +113,13 @@ impl ControllerSpec {
         }
     }
 
-    /// Returns `true` if a unit can track the satellite of this name. Units without element files
+    /// Returns `true` if a unit can track the satellite with this name. Units without element files
     /// need no name.
     pub fn takes_satellite(&self, name: &str) -> bool {
         self.element_files.is_none_or(|files| (files.check_name)("satellite name", name).is_ok())
     }
 
-    /// Checks that `address` fits its link; fails with the reason.
+    /// Checks that `address` fits the link; returns the reason if it does not.
     pub fn check_address(&self, address: &str) -> Result<(), &'static str> {
         match self.link {
             Link::Tcp => check_address(address),
@@ -128,7 +128,7 @@ impl ControllerSpec {
     }
 }
 
-/// By the key, which no two makes have in common.
+/// Compares by the key, which is unique for each make.
 impl PartialEq for ControllerSpec {
     fn eq(&self, other: &Self) -> bool {
         self.key == other.key

@@ -13,21 +13,21 @@ pub struct Favourites(Vec<Favourite>);
 
 /// A satellite that the operator has marked.
 ///
-/// In the station file it is a catalog number, or a table where it has more.
+/// In the station file, it is a catalog number, or a table if it has other values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Favourite {
     /// Catalog number.
     pub satellite: u32,
-    /// `None` for that of its group, or else the default.
+    /// Own priority; `None` for the priority of its group, or else the default.
     pub priority: Option<Priority>,
-    /// Those of its groups hold for what has no limit here.
+    /// Own limits. The groups of the satellite provide the missing limits.
     pub limits: PassLimits,
-    /// Names of the sources whose elements it prefers, the first one first. Without any, the
-    /// newest elements of all sources are used.
+    /// Names of the preferred sources of elements, the best first. If empty, Azel uses the newest
+    /// elements of all sources.
     pub sources: Vec<String>,
 }
 
-/// Importance of a favourite, from 1, the first, to 5.
+/// Importance of a favourite, from 1, the most important, to 5.
 #[derive(
     Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, serde::Deserialize,
 )]
@@ -47,7 +47,7 @@ impl Priority {
 }
 
 impl Default for Priority {
-    /// The middle: some favourites come before and some after.
+    /// Returns the middle priority, which leaves room before and after it.
     fn default() -> Self {
         Self(3)
     }
@@ -69,7 +69,7 @@ impl From<Priority> for i64 {
 }
 
 impl Favourite {
-    /// A favourite without a priority or limits of its own.
+    /// Returns a favourite without its own priority or limits.
     pub fn new(satellite: u32) -> Self {
         Self { satellite, priority: None, limits: PassLimits::default(), sources: Vec::new() }
     }
@@ -88,12 +88,12 @@ impl Favourites {
         self.0.iter()
     }
 
-    /// Catalog numbers.
+    /// Returns the catalog numbers.
     pub fn numbers(&self) -> Vec<u32> {
         self.iter().map(|favourite| favourite.satellite).collect()
     }
 
-    /// Marks a satellite, or changes what is known of it.
+    /// Marks a satellite, or replaces its entry.
     pub fn put(&mut self, favourite: Favourite) {
         match self.0.iter_mut().find(|entry| entry.satellite == favourite.satellite) {
             Some(existing) => *existing = favourite,
@@ -101,21 +101,21 @@ impl Favourites {
         }
     }
 
-    /// Marks a satellite, and gives it this priority.
+    /// Marks a satellite and sets its priority.
     pub fn set_priority(&mut self, satellite: u32, priority: Priority) {
         let previous = self.get(satellite).cloned();
         let favourite = previous.unwrap_or_else(|| Favourite::new(satellite));
         self.put(Favourite { priority: Some(priority), ..favourite });
     }
 
-    /// Marks a satellite, and gives it these limits.
+    /// Marks a satellite and sets its limits.
     pub fn set_limits(&mut self, satellite: u32, limits: PassLimits) {
         let previous = self.get(satellite).cloned();
         let favourite = previous.unwrap_or_else(|| Favourite::new(satellite));
         self.put(Favourite { limits, ..favourite });
     }
 
-    /// Gives a satellite this order of sources. It becomes a favourite if the order names any.
+    /// Sets the order of sources of a satellite. Marks the satellite if the order names any source.
     pub fn set_sources(&mut self, satellite: u32, sources: Vec<String>) {
         let previous = self.get(satellite).cloned();
         if previous.is_some() || !sources.is_empty() {
@@ -124,13 +124,13 @@ impl Favourites {
         }
     }
 
-    /// The order of sources of each satellite that has one, by catalog number.
+    /// Returns the order of sources of each satellite that has one, by catalog number.
     pub fn source_orders(&self) -> BTreeMap<u32, Vec<String>> {
         let ordered = self.iter().filter(|favourite| !favourite.sources.is_empty());
         ordered.map(|favourite| (favourite.satellite, favourite.sources.clone())).collect()
     }
 
-    /// Marks a satellite, or unmarks it.
+    /// Marks or unmarks a satellite.
     pub fn mark(&mut self, satellite: u32, is_favourite: bool) {
         if !is_favourite {
             self.0.retain(|favourite| favourite.satellite != satellite);
@@ -139,7 +139,7 @@ impl Favourites {
         }
     }
 
-    /// These satellites in this order; those that are favourites keep what is known of them.
+    /// Returns these satellites in this order; existing favourites keep their entries.
     #[must_use]
     pub fn with_numbers(&self, numbers: &[u32]) -> Self {
         let mut list = Self::default();
@@ -151,7 +151,7 @@ impl Favourites {
     }
 }
 
-/// Satellites without a priority or limits of their own.
+/// Marks the satellites without their own priorities or limits.
 impl FromIterator<u32> for Favourites {
     fn from_iter<T: IntoIterator<Item = u32>>(numbers: T) -> Self {
         let mut list = Self::default();

@@ -1,4 +1,4 @@
-//! The station file on disk, always read and replaced as a whole.
+//! The station file on disk, which Azel always reads and replaces as a whole.
 
 use std::{
     fs, io,
@@ -15,17 +15,17 @@ use super::{
 };
 use crate::whole_file;
 
-/// Version that this program writes. A file of a later one is left alone.
+/// Version of the file that Azel writes. Azel does not change a file of a later version.
 const VERSION: i64 = 1;
 
-/// Usual name of a station file.
+/// Default name of a station file.
 const FILE: &str = "station.toml";
 
-/// A station file that was read.
+/// The content of a station file.
 #[derive(Debug)]
 pub struct Loaded {
     pub station: Station,
-    /// Entries that were not taken over as they stand in the file.
+    /// Entries that Azel did not use as written in the file.
     pub notes: Vec<Note>,
 }
 
@@ -33,19 +33,19 @@ pub struct Loaded {
 #[derive(Debug, Default)]
 pub struct Saved {
     pub notes: Vec<Note>,
-    /// Settings on which safety depends.
+    /// Unreadable settings on which safety depends.
     pub unread: Vec<super::Unread>,
 }
 
-/// Why the station file was not read. It stays as it is on disk.
+/// Reason why Azel has not read the station file. The file stays unchanged on disk.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
     #[error("there are no settings yet")]
     Missing,
-    /// The operating system refused.
+    /// An error of the operating system.
     #[error("the settings cannot be read: {source}: {}", path.display())]
     Read { source: io::Error, path: PathBuf },
-    /// Such as UTF-16, which some editors write.
+    /// An encoding such as UTF-16, which some editors write.
     #[error("the settings are not UTF-8 text; save the file as UTF-8: {}", path.display())]
     Encoding { path: PathBuf },
     #[error("the settings are not valid TOML: {source}: {}", path.display())]
@@ -54,7 +54,7 @@ pub enum LoadError {
         source: Box<toml::de::Error>,
         path: PathBuf,
     },
-    /// A newer program wrote the file.
+    /// A file from a newer Azel.
     #[error("the settings have version {found}, this program knows {VERSION}: {}", path.display())]
     Newer {
         /// Version of the file.
@@ -63,22 +63,22 @@ pub enum LoadError {
     },
 }
 
-/// Why the station file was not written. The old one is still there.
+/// Reason why Azel has not written the station file. The previous file stays.
 #[derive(Debug, thiserror::Error)]
 pub enum SaveError {
     #[error("the settings cannot be put into TOML: {0}")]
     Form(#[from] toml::ser::Error),
-    /// The operating system refused.
+    /// An error of the operating system.
     #[error("the settings were not saved, the old ones stay: {source}: {}", path.display())]
     Write { source: io::Error, path: PathBuf },
-    /// An entry that could not be read would be lost.
+    /// An unreadable entry that the save would delete.
     #[error(
         "the settings were not saved: that would delete {place}, which could not be read. The old \
          file is unchanged. Repair the entry, then save again: {}",
         path.display()
     )]
     WouldDrop { place: String, path: PathBuf },
-    /// The file there is no TOML.
+    /// An existing file that is not TOML.
     #[error(
         "the settings were not saved: the station file cannot be read, and saving would replace it. \
          Mend it or move it away, then save again: {}",
@@ -87,12 +87,12 @@ pub enum SaveError {
     Unreadable(PathBuf),
 }
 
-/// Path of this user's station file; `None` on a machine without a home.
+/// Returns the path of this user's station file; `None` on a machine without a home folder.
 pub fn settings_path() -> Option<PathBuf> {
     directories::ProjectDirs::from("", "", "azel").map(|dirs| dirs.config_dir().join(FILE))
 }
 
-/// Path in `folder` for one more station file; there is no file yet.
+/// Returns a free path in `folder` for another station file.
 pub fn free_path(folder: &Path) -> PathBuf {
     let default_path = folder.join(FILE);
     let mut numbered = (2..).map(|number| folder.join(format!("station-{number}.toml")));
@@ -124,7 +124,7 @@ pub fn load(path: &Path, specs: &[&'static ControllerSpec]) -> Result<Loaded, Lo
     Ok(Loaded { station, notes })
 }
 
-/// Line of the entry at `place` in `text`, from 1.
+/// Returns the line of the entry at `place` in `text`, from 1.
 fn line_of(text: &str, place: &str) -> Option<usize> {
     let document = toml_edit::Document::parse(text).ok()?;
     let mut item = document.as_item();
@@ -149,15 +149,15 @@ fn line_of(text: &str, place: &str) -> Option<usize> {
     Some(before.matches('\n').count() + 1)
 }
 
-/// When the file at `path` was written last.
+/// Returns the time at which the file at `path` was last written.
 pub fn saved_at(path: &Path) -> Option<Timestamp> {
     let modified = fs::metadata(path).and_then(|metadata| metadata.modified()).ok()?;
     Timestamp::try_from(modified).ok()
 }
 
-/// Writes the station to `path`, into the text that stands there: the operator's comments
-/// stay, and so does every entry that could not be read. A failure at any moment leaves the old
-/// file whole. The previous file is kept beside it with the ending `.old`.
+/// Writes the station to `path`, into the existing text: the operator's comments and all unreadable
+/// entries stay. A failure at any moment leaves the previous file whole. Azel keeps a copy of the
+/// previous file with the added ending `.old`.
 pub fn save(
     station: &Station,
     path: &Path,
@@ -194,7 +194,7 @@ fn read_text(text: &str, specs: &[&'static ControllerSpec]) -> Option<Read> {
     toml::from_str(text).ok().map(|table| read(table, specs))
 }
 
-/// The text `new` of a station in the text `old` that stands at `path`.
+/// Returns the text `new` of a station, merged into the text `old` of the file at `path`.
 fn merged(
     old: &str,
     new: &str,

@@ -16,7 +16,8 @@ pub struct Frequency {
 }
 
 impl Frequency {
-    /// Frequencies as the operator types them: one a line, a catalogue number, MHz and a name.
+    /// Returns frequencies as the operator types them: a catalogue number, MHz and a name on each
+    /// line.
     pub fn list_text(list: &[Self]) -> String {
         let line = |frequency: &Self| {
             format!("{} {} {}", frequency.satellite, frequency.mhz, frequency.name)
@@ -27,7 +28,7 @@ impl Frequency {
             .join("\n")
     }
 
-    /// Reads what [`Self::list_text`] writes.
+    /// Reads frequencies in the form of [`Self::list_text`].
     pub fn read_list(text: &str) -> Result<Vec<Self>, Unfit> {
         let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
         let read = lines.map(|(index, line)| {

@@ -1,9 +1,9 @@
-//! Hours of the day, for settings that hold at some hours alone.
+//! Hours of the day, for settings that only apply at some hours.
 
 use jiff::{Timestamp, civil::Time, tz::TimeZone};
 use serde::{Deserialize, Serialize, Serializer};
 
-/// A part of each day, which may contain midnight. Who holds it says by which clock.
+/// A part of each day, which may contain midnight. The owner of the value defines the clock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct HoursOfDay {
     #[serde(rename = "from", serialize_with = "as_text")]
@@ -13,7 +13,7 @@ pub struct HoursOfDay {
 }
 
 impl HoursOfDay {
-    /// From ten in the evening to six in the morning.
+    /// Night hours: 22:00 to 06:00.
     pub const NIGHT: Self =
         Self { start: Time::constant(22, 0, 0, 0), end: Time::constant(6, 0, 0, 0) };
 
@@ -22,7 +22,7 @@ impl HoursOfDay {
         Time::strptime("%H:%M", text.trim()).ok()
     }
 
-    /// Writes a time as [`Self::read_time`] reads it.
+    /// Returns a time in the form that [`Self::read_time`] reads.
     pub fn time_text(time: Time) -> String {
         time.strftime("%H:%M").to_string()
     }
@@ -35,7 +35,7 @@ impl HoursOfDay {
     }
 }
 
-// The signature is serde's.
+// serde prescribes the signature.
 #[allow(clippy::trivially_copy_pass_by_ref)]
 fn as_text<S: Serializer>(time: &Time, out: S) -> Result<S::Ok, S::Error> {
     HoursOfDay::time_text(*time).serialize(out)

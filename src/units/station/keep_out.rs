@@ -1,4 +1,4 @@
-//! Keep-outs and Sun avoidance: where antennas must not point.
+//! Keep-outs and Sun avoidance: directions into which antennas must not point.
 
 use serde::{Serialize, Serializer};
 
@@ -8,19 +8,19 @@ use crate::astro::{Angle, AzEl, Zone};
 /// A zone of the sky into which antennas must not point.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct KeepOut {
-    /// Not empty, and unique among the keep-outs of the station.
+    /// Name, not empty, and unique among the keep-outs of the station.
     pub name: String,
     /// Reason in the operator's words; may be empty.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub reason: String,
     pub entered: Entered,
-    /// Name of the antenna it holds for; `None` for the whole site.
+    /// Name of the antenna to which the keep-out applies; `None` for the whole site.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub antenna: Option<String>,
     /// Margin that the operator adds to half the beamwidth and to the overrun of the drives,
     /// degrees, 0 to 30.
     pub margin_deg: f64,
-    /// Edges of the zone. In the file a list of corners, each an azimuth and an elevation.
+    /// Edges of the zone. The file has a list of corners, each an azimuth and an elevation.
     #[serde(rename = "corners", serialize_with = "as_corners")]
     pub zone: Zone,
 }
@@ -29,21 +29,21 @@ pub struct KeepOut {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Entered {
-    /// The motion is refused; an antenna that gets in all the same is stopped.
+    /// Refusal of the motion. Azel stops an antenna that enters nevertheless.
     #[default]
     Hard,
-    /// An alarm is raised.
+    /// An alarm.
     Warn,
-    /// A detour along the margin is taken; the motion is refused where there is none.
+    /// A detour along the margin, or refusal of the motion without a detour.
     GoRound,
 }
 
-/// How far antennas stay away from the Sun.
+/// Distance that antennas keep from the Sun.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SunAvoidance {
-    /// Smallest angle between the Sun and the direction of an antenna, degrees, 0.1 to 60.
+    /// Min angle between the Sun and the direction of an antenna, degrees, 0.1 to 60.
     pub radius_deg: f64,
-    /// Time ahead for which the Sun's way is kept free, minutes, 0 to 120.
+    /// Time ahead for which antennas avoid the Sun's path, minutes, 0 to 120.
     pub ahead_min: f64,
 }
 
@@ -53,16 +53,16 @@ impl SunAvoidance {
 }
 
 impl KeepOut {
-    /// Maximum number of keep-outs of a station: each costs time whenever a position is judged.
+    /// Max number of keep-outs of a station: each takes time whenever Azel judges a position.
     pub const MAX_NUMBER: usize = 32;
-    /// Maximum number of corners of all keep-outs of a station, for the same reason.
+    /// Max number of corners of all keep-outs of a station, for the same reason.
     pub const MAX_CORNERS_IN_ALL: usize = 800;
 
     /// Default of [`Self::margin_deg`], degrees.
     pub const DEFAULT_MARGIN_DEG: f64 = 1.0;
 
-    /// Returns why a keep-out of this many corners is one too many after those before it, given by
-    /// their numbers of corners.
+    /// Returns the reason why a keep-out with this many corners exceeds a max. `before` contains
+    /// the numbers of corners of the keep-outs before it.
     pub fn excess(before: impl Iterator<Item = usize>, corners: usize) -> Option<String> {
         let (number, all) =
             before.fold((1, corners), |(number, all), corners| (number + 1, all + corners));
@@ -73,13 +73,12 @@ impl KeepOut {
             .then(|| format!("all keep-outs have {} corners at most", Self::MAX_CORNERS_IN_ALL))
     }
 
-    /// Returns `true` if the keep-out holds for the antenna of that name.
+    /// Returns `true` if the keep-out applies to the antenna of that name.
     pub fn holds_for(&self, antenna: &str) -> bool {
         self.antenna.as_deref().is_none_or(|name| Antenna::same_name(name, antenna))
     }
 
-    /// Returns `true` if this keep-out keeps antennas out of everything that `other` does,
-    /// at least as strictly.
+    /// Returns `true` if this keep-out covers all of `other`, at least as strictly.
     pub fn holds_all_of(&self, other: &Self) -> bool {
         const STEP: Angle = Angle::from_degrees(0.25);
         let same_antennas = match (&self.antenna, &other.antenna) {
@@ -88,7 +87,7 @@ impl KeepOut {
             (Some(own), Some(others)) => Antenna::same_name(own, others),
         };
         let is_strict = self.entered != Entered::Warn || other.entered == Entered::Warn;
-        // Around each point of the edge, the whole margin of the other one has room.
+        // Around each point of the edge, this margin must contain the whole margin of `other`.
         let room = self.margin() - other.margin() + Angle::from_degrees(1e-6);
         let is_within = |point: AzEl| self.zone.clearance(point) <= room;
         let same_zone = self.zone == other.zone && self.margin_deg >= other.margin_deg;
@@ -99,7 +98,7 @@ impl KeepOut {
         Angle::from_degrees(self.margin_deg)
     }
 
-    /// Azimuth and elevation of the corners, degrees rounded to nine decimals, because an
+    /// Returns azimuth and elevation of the corners, degrees rounded to nine decimals, because an
     /// angle in radians does not keep the last digit of its degrees.
     pub fn corners_deg(zone: &Zone) -> Vec<(f64, f64)> {
         let rounded = |angle: Angle| (angle.degrees() * 1e9).round() / 1e9;
@@ -109,15 +108,15 @@ impl KeepOut {
             .collect()
     }
 
-    /// The zone with these corners (azimuth, elevation), degrees.
+    /// Returns the zone with these corners (azimuth, elevation), degrees.
     pub fn zone_of(corners_deg: &[(f64, f64)]) -> Result<Zone, crate::astro::ZoneError> {
         Zone::new(corners_deg.iter().map(|(az, el)| AzEl::from_degrees(*az, *el)).collect())
     }
 }
 
 impl Station {
-    /// Name of a keep-out, or the Sun avoidance, that is weaker or missing in `after`. A
-    /// keep-out that grows, or a new one, does not count.
+    /// Returns the name of a keep-out, or of the Sun avoidance, that is weaker or missing in
+    /// `after`. A larger or new keep-out does not count.
     pub fn loosened_in(&self, after: &Self) -> Option<&str> {
         let is_held = |old: &&KeepOut| after.keep_outs.iter().any(|new| new.holds_all_of(old));
         let sun = self.sun_avoidance.filter(|old| {

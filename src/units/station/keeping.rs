@@ -1,13 +1,13 @@
-//! How long a station keeps its record.
+//! Retention of a station's record.
 
 use serde::Serialize;
 
-/// How long the parts of the record are kept.
+/// Time for which Azel keeps the parts of the record.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Retention {
-    /// Measured positions and lines on the links, days.
+    /// Retention of measured positions and lines on the links, days.
     pub raw_days: f64,
-    /// Everything else, years.
+    /// Retention of all other data, years.
     pub years: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Offsets that the operator wants to be remembered.
+//! Offsets that the operator has saved.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +14,7 @@ pub struct KeptOffsets {
     pub offsets: TrackOffsets,
 }
 
-/// Source of the error that the offsets make up for.
+/// Source of the error that the offsets correct.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum OffsetsSubject {
@@ -25,7 +25,7 @@ pub enum OffsetsSubject {
 }
 
 impl OffsetsSubject {
-    /// Returns the offsets of its kinds.
+    /// Returns the part of `offsets` that corrects this source.
     #[must_use]
     pub fn part(self, offsets: TrackOffsets) -> TrackOffsets {
         match self {
@@ -36,13 +36,13 @@ impl OffsetsSubject {
 }
 
 impl Station {
-    /// The offsets that are remembered of a satellite or an antenna.
+    /// Returns the saved offsets of a satellite or an antenna.
     pub fn kept_offsets(&self, offsets_of: OffsetsSubject) -> TrackOffsets {
         let entry = self.offsets.iter().find(|kept_offsets| kept_offsets.subject == offsets_of);
         offsets_of.part(entry.map(|kept_offsets| kept_offsets.offsets).unwrap_or_default())
     }
 
-    /// The offsets with which an antenna begins a track.
+    /// Returns the offsets with which an antenna begins a track.
     pub fn first_offsets(&self, antenna: AntennaId, satellite: Option<u32>) -> TrackOffsets {
         let of_satellite =
             satellite.map(|number| self.kept_offsets(OffsetsSubject::Satellite(number)));
@@ -50,7 +50,7 @@ impl Station {
         of_satellite.unwrap_or_default().with_axes_of(of_antenna)
     }
 
-    /// Remembers these offsets in place of earlier ones; none are forgotten.
+    /// Saves these offsets in place of earlier ones; removes the entry if they are zero.
     pub fn keep_offsets(&mut self, offsets_of: OffsetsSubject, offsets: TrackOffsets) {
         self.offsets.retain(|kept_offsets| kept_offsets.subject != offsets_of);
         let offsets = offsets_of.part(offsets);

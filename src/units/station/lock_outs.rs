@@ -1,7 +1,6 @@
-//! Units that are locked out for maintenance, in a file of their own beside the station
-//! file.
+//! Lock-outs of units for maintenance, in a separate file beside the station file.
 //!
-//! Invariant: a file that cannot be read locks everything, never nothing.
+//! Invariant: an unreadable file locks out all units, never none.
 
 use std::{collections::BTreeMap, fs, io, path::Path};
 
@@ -12,13 +11,13 @@ use super::{Antenna, Connection};
 
 /// Name of the file beside the station file.
 pub const LOCK_OUTS_FILE: &str = "lock-outs.toml";
-/// Version that this program writes.
+/// Version of the file that Azel writes.
 const VERSION: i64 = 1;
 
-/// Lock-out of a unit while somebody works on it: only questions and STOP may go to it.
+/// Lock-out of a unit while somebody works on it: Azel sends it only questions and STOP.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LockOut {
-    /// Person who locked it out.
+    /// Person who has locked out the unit.
     #[serde(rename = "by", deserialize_with = "one_line")]
     pub operator: String,
     #[serde(deserialize_with = "one_line")]
@@ -27,14 +26,14 @@ pub struct LockOut {
     pub start: Timestamp,
 }
 
-/// Reads a text and replaces control characters with spaces, so that it can neither send escape
+/// Reads a text and replaces control characters with spaces. The text can then neither send escape
 /// sequences to a terminal nor forge a line.
 fn one_line<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
     let text = String::deserialize(deserializer)?;
     Ok(text.replace(char::is_control, " "))
 }
 
-/// The unit at an address, whatever the name of its antenna.
+/// Key of a unit: its make and address, without the name of its antenna.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct UnitKey {
     make: String,
@@ -54,7 +53,7 @@ pub struct LockOuts {
     units: BTreeMap<UnitKey, LockOut>,
     /// Lock-out of all other units, because the file could not be read.
     others: Option<LockOut>,
-    /// Changes that are not on the disk; `None` removes a lock-out.
+    /// Changes that are not on the disk yet; `None` removes a lock-out.
     unsaved: BTreeMap<UnitKey, Option<LockOut>>,
 }
 
@@ -80,8 +79,8 @@ struct LockOutEntry {
 }
 
 impl LockOuts {
-    /// Reads the file at `path`. A missing file locks out nothing. An unreadable one locks
-    /// out every unit; the second value says why.
+    /// Reads the file at `path`. A missing file locks out no unit. An unreadable file locks out
+    /// every unit; the second value gives the reason.
     pub fn load(path: &Path, now: Timestamp) -> (Self, Option<String>) {
         let read = match fs::read_to_string(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Default::default(),
@@ -102,7 +101,7 @@ impl LockOuts {
         }
     }
 
-    /// Reads the file anew, as [`Self::load`] does. Changes that could not be saved stay.
+    /// Reads the file again like [`Self::load`]. Keeps the changes that are not saved yet.
     pub fn reload(&mut self, path: &Path, now: Timestamp) -> Option<String> {
         let (loaded, problem) = Self::load(path, now);
         let unsaved = std::mem::take(&mut self.unsaved);
@@ -133,7 +132,7 @@ impl LockOuts {
         Ok(file.lock_outs.into_iter().map(unit).collect())
     }
 
-    /// The lock-out of the unit at `connection`.
+    /// Returns the lock-out of the unit at `connection`.
     pub fn find(&self, connection: &Connection) -> Option<&LockOut> {
         self.units.get(&UnitKey::new(connection)).or(self.others.as_ref())
     }
@@ -160,9 +159,9 @@ impl LockOuts {
         self.put(unit, lock_out);
     }
 
-    /// Carries lock-outs over to changed antennas. A locked-out unit stays so, and its
-    /// antenna's new address or make is locked out too: the person at work may be at
-    /// either. Returns whether that adds anything.
+    /// Applies the lock-outs to changed antennas. A locked-out unit stays locked out, and also its
+    /// antenna's new address or make: the person at work may be at either. Returns `true` if a
+    /// lock-out was added.
     pub fn stay_with_antennas(&mut self, before: &[Antenna], after: &[Antenna]) -> bool {
         let previous_count = self.units.len();
         for old in before {
@@ -179,7 +178,7 @@ impl LockOuts {
         self.units.len() > previous_count
     }
 
-    /// Content of the file with all lock-outs.
+    /// Returns the content of the file with all lock-outs.
     pub fn text(&self) -> Result<String, toml::ser::Error> {
         let line = |(unit, lock_out): (&UnitKey, &LockOut)| {
             let (UnitKey { make, address }, LockOut { operator, reason, start }) =
@@ -190,8 +189,8 @@ impl LockOuts {
         toml::to_string_pretty(&File { version: VERSION, lock_outs })
     }
 
-    /// The file holds all lock-outs. Until then the changes hold in memory, also when the file is
-    /// read again.
+    /// Marks all lock-outs as saved. Until then, the changes stay in memory, also when Azel reads
+    /// the file again.
     pub fn saved(&mut self) {
         self.unsaved.clear();
     }
@@ -258,7 +257,7 @@ mod tests {
         assert_eq!(LockOuts::load(&path, now()), (LockOuts::default(), None));
     }
 
-    /// A file as version f93e9bd5 wrote it.
+    /// Reads a file that version f93e9bd5 wrote.
     #[test]
     fn a_list_of_an_earlier_version_means_the_same() {
         let folder = tempfile::tempdir().unwrap();
@@ -281,7 +280,7 @@ mod tests {
         let mast = Antenna::genius("Mast", "10.0.0.2:9006").connection;
         let mut lock_outs = LockOuts::default();
         lock_outs.set(&dish, Some(lock_out("gear")), std::iter::empty());
-        // The disk does not take it.
+        // This change is not saved to the disk.
         assert_eq!(lock_outs.reload(&path, now()), None);
         lock_outs.set(&mast, Some(lock_out("belts")), std::iter::empty());
         assert!(lock_outs.find(&dish).is_some() && lock_outs.find(&mast).is_some());
@@ -324,7 +323,7 @@ mod tests {
             assert_eq!(again.find(&dish), None);
             assert!(again.find(&mast).is_some(), "nobody has said so of this one");
         }
-        // A folder cannot be read as a file either.
+        // A folder is not readable as a file.
         let (lock_outs, problem) = LockOuts::load(folder.path(), now());
         assert!(problem.is_some() && lock_outs.find(&dish).is_some());
     }
@@ -349,7 +348,7 @@ mod tests {
             assert_eq!(lock_outs.find(&changed.connection), Some(&lock_out("gear")), "{changed:?}");
             assert!(lock_outs.find(&dish.connection).is_some(), "the unit itself stays so");
             assert_eq!(lock_outs.find(&mast.connection), None);
-            // The operator removes each lock-out by itself, with a hold.
+            // The operator removes each lock-out separately, with a hold.
             lock_outs.set(&changed.connection, None, std::iter::empty());
             assert_eq!(lock_outs.find(&changed.connection), None);
         }

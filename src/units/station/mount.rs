@@ -15,10 +15,10 @@ pub enum Mount {
     Xy {
         /// Azimuth to which the lower axis points, degrees, 0 to 180.
         lower_axis_azimuth_deg: f64,
-        /// Lower end of the travel of both axes as the controller counts
-        /// (90 at the zenith), degrees.
+        /// Lower end of the travel of both axes on the controller's scale (90 at the zenith),
+        /// degrees.
         travel_from_deg: f64,
-        /// Upper end of the travel, degrees.
+        /// Upper end of the travel of both axes, degrees.
         travel_to_deg: f64,
     },
     /// Elevation over azimuth. A rotator for the azimuth alone does not use the elevation.
@@ -26,17 +26,17 @@ pub enum Mount {
         /// Counter-clockwise end of the azimuth axis, degrees from north over
         /// east, -360 to 360.
         azimuth_from_deg: f64,
-        /// Clockwise end, degrees; above 360 where the axis turns by more than one turn.
+        /// Clockwise end of the azimuth axis, degrees; above 360 if it turns by more than one turn.
         azimuth_to_deg: f64,
         /// Lower end of the elevation axis, degrees.
         elevation_from_deg: f64,
-        /// Upper end, degrees; beyond 90, up to 180, where the mount can flip.
+        /// Upper end of the elevation axis, degrees; above 90, up to 180, if the mount can flip.
         elevation_to_deg: f64,
     },
 }
 
 impl Mount {
-    /// Both ends of the travel of the two axes, degrees as the mount counts.
+    /// Returns both ends of the travel of the two axes, degrees of the mount.
     pub fn travel_deg(&self) -> [(f64, f64); 2] {
         match *self {
             Self::Xy { travel_from_deg, travel_to_deg, .. } => {
@@ -51,7 +51,7 @@ impl Mount {
         }
     }
 
-    /// The direction in which the axes point at `axes_deg`, degrees as the mount counts.
+    /// Returns the direction in which the axes point at `axes_deg`, degrees of the mount.
     pub fn direction(&self, axes_deg: [f64; 2]) -> AzEl {
         let [first, second] = axes_deg.map(Angle::from_degrees);
         match *self {
@@ -64,8 +64,8 @@ impl Mount {
         }
     }
 
-    /// Returns `true` if the axes reach `direction`, flipped or not. For an X/Y mount this
-    /// is always true, even in its keyholes.
+    /// Returns `true` if the axes reach `direction`, flipped or not. The result is always `true`
+    /// for an X/Y mount, even in its keyholes.
     pub fn reaches(&self, direction: AzEl) -> bool {
         let Self::AzEl { azimuth_from_deg, azimuth_to_deg, .. } = *self else { return true };
         let [_, (lowest_deg, highest_deg)] = self.travel_deg();
@@ -76,7 +76,7 @@ impl Mount {
         })
     }
 
-    /// The end of the azimuth travel beyond which `direction` lies, as an azimuth: the nearer one.
+    /// Returns the nearer end of the azimuth travel beyond which `direction` lies, as an azimuth.
     /// `None` if the azimuth axis turns to it, flipped or not, and for an X/Y mount.
     pub fn azimuth_end_before(&self, direction: AzEl) -> Option<Angle> {
         let Self::AzEl { azimuth_from_deg: start, azimuth_to_deg: last, .. } = *self else {
@@ -104,9 +104,8 @@ impl Mount {
         self.can_flip() && elevation_axis_deg.is_some_and(|axis_deg| axis_deg > 90.0)
     }
 
-    /// This mount with its travel cut to the unit's own ends, degrees as the mount counts.
-    /// Ends that would leave an axis no travel are ignored, and so are all ends for an X/Y
-    /// mount.
+    /// Returns this mount with its travel limited to the unit's own ends, degrees of the mount.
+    /// Ignores ends that would leave an axis no travel, and all ends for an X/Y mount.
     #[must_use]
     pub fn clipped(self, ends_deg: [Option<(f64, f64)>; 2]) -> Self {
         if matches!(self, Self::Xy { .. }) {
@@ -124,9 +123,9 @@ impl Mount {
         Self::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_from_deg, elevation_to_deg }
     }
 
-    /// The position of the azimuth axis that points to `azimuth`, the one nearest to
-    /// `near_deg`. Where the axis has no such position, and for a mount without such an
-    /// axis, `azimuth` itself.
+    /// Returns the position of the azimuth axis that points to `azimuth` and is nearest to
+    /// `near_deg`. Returns `azimuth` if the axis has no such position, or if the mount has no such
+    /// axis.
     pub fn axis_azimuth(&self, azimuth: Angle, near_deg: Option<f64>) -> Angle {
         let Self::AzEl { azimuth_from_deg: start, azimuth_to_deg: end, .. } = *self else {
             return azimuth;

@@ -6,36 +6,36 @@ use serde::Serialize;
 
 use super::{AntennaId, Station};
 
-/// First port of rotctld; each further rotator has the next but one.
+/// First port of rotctld; each further rotator uses the next port but one.
 const FIRST_PORT: u16 = 4533;
 
-/// A port for programs that speak Hamlib's rotctld protocol. An antenna without one is closed to
-/// them.
+/// A port for programs that speak Hamlib's rotctld protocol. Other programs cannot point an antenna
+/// without a port.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct NetworkPort {
     pub antenna: AntennaId,
-    /// Address and port to listen on. An address other than a loopback one opens the antenna to
-    /// the network, without a password.
+    /// Address and port to listen on. An address other than loopback opens the antenna to the
+    /// network without a password.
     pub listen: SocketAddr,
-    /// Addresses whose programs may point the antenna without a decision of the operator.
+    /// Addresses whose programs may point the antenna without the operator's decision.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub allowed: Vec<IpAddr>,
 }
 
 impl NetworkPort {
-    /// Returns `true` if programs of other computers can reach it.
+    /// Returns `true` if programs on other computers can reach the port.
     pub fn is_open_to_network(&self) -> bool {
         !self.listen.ip().is_loopback()
     }
 }
 
 impl Station {
-    /// The port of an antenna.
+    /// Returns the port of an antenna; `None` if other programs cannot point it.
     pub fn network_port(&self, antenna: AntennaId) -> Option<&NetworkPort> {
         self.network_ports.iter().find(|port| port.antenna == antenna)
     }
 
-    /// A port on this computer for an antenna, which no other antenna has.
+    /// Returns a free port on this computer for an antenna.
     pub fn free_port(&self, antenna: AntennaId) -> NetworkPort {
         let is_free =
             |port: &u16| self.network_ports.iter().all(|used| used.listen.port() != *port);
@@ -44,7 +44,7 @@ impl Station {
         NetworkPort { antenna, listen, allowed: Vec::new() }
     }
 
-    /// Lets programs at this address point an antenna.
+    /// Allows programs at this address to point an antenna.
     pub fn allow_client(&mut self, antenna: AntennaId, address: IpAddr) {
         let port = self.network_ports.iter_mut().find(|port| port.antenna == antenna);
         if let Some(port) = port.filter(|port| !port.allowed.contains(&address)) {

@@ -1,4 +1,4 @@
-//! Notices of the station through the desktop, and the passes of which it reminds.
+//! Notices of the station through the desktop, and the passes with reminders.
 
 use std::collections::BTreeSet;
 
@@ -18,30 +18,30 @@ pub enum Tones {
 }
 
 impl Tones {
-    /// All with their words in the station file.
+    /// All sounds with their words in the station file.
     pub(super) const WORDS: [(&'static str, Self); 3] =
         [("none", Self::None), ("rising", Self::Rising), ("falling", Self::Falling)];
 }
 
-/// Settings for notices: alarms and reminders that the desktop shows and sounds. Alarms of the
-/// top priority ignore them.
+/// Settings for notices: alarms and reminders that the desktop shows and sounds. Alarms of the top
+/// priority ignore these settings.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Notices {
-    /// The desktop shows new alarms and reminders.
+    /// `true` if the desktop shows new alarms and reminders.
     pub notifications: bool,
-    /// New alarms and reminders make a sound.
+    /// `true` if new alarms and reminders make a sound.
     pub sounds: bool,
-    /// Sound of alarms that something is wrong now.
+    /// Sound of alarms about a current problem.
     pub warning_tones: Tones,
-    /// Sound of alarms that something will go wrong or was not done.
+    /// Sound of alarms about a future problem or a missed action.
     pub caution_tones: Tones,
     pub reminder_tones: Tones,
-    /// `None` where no hours are quiet.
+    /// Quiet hours; `None` without quiet hours.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub quiet: Option<HoursOfDay>,
     /// Time from a reminder to AOS, minutes, 1 to 60.
     pub reminder_min: f64,
-    /// Catalog numbers of the favourites whose passes have a reminder.
+    /// Catalog numbers of the favourites with reminders of their passes.
     pub reminders: BTreeSet<u32>,
 }
 

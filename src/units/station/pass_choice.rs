@@ -1,4 +1,4 @@
-//! Single passes that the operator has chosen for the schedule, or against it.
+//! Single passes that the operator has chosen for the schedule, or excluded from it.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -6,20 +6,20 @@ use serde::{Deserialize, Serialize};
 /// Operator's choice for one pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PassChoice {
-    /// Catalog number.
+    /// Catalog number of the satellite.
     pub satellite: u32,
-    /// A moment of the pass. Newer elements move AOS and LOS, but not past the middle.
+    /// Time inside the pass. Newer elements move AOS and LOS, but not past the TCA.
     pub tca: Timestamp,
     pub take: Take,
-    /// When the operator chose.
+    /// Time of the operator's choice.
     pub chosen_at: Timestamp,
 }
 
-/// Decision to take a pass or not, whatever its priority.
+/// Decision to take a pass or not, independent of its priority.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Take {
-    /// Before all passes that are not always taken.
+    /// Precedence over all passes that are not always taken.
     Always,
     Never,
 }

@@ -1,5 +1,5 @@
-//! Reads a station from TOML. A missing value gets its default, an invalid one its default
-//! and a note, and an unknown key is named in a note.
+//! Reading of a station from TOML. A missing value becomes its default, an invalid value becomes
+//! its default with a note, and a note names an unknown key.
 
 mod antenna;
 mod favourites;
@@ -20,49 +20,49 @@ pub use unread::Unread;
 use super::{Antenna, AntennaId, ControllerSpec, Favourites, Frequency, OnClose, Station, ranges};
 use crate::astro::{HorizonMask, Site};
 
-/// Entries of earlier versions, without the numbers of list entries. They are read in silence, and the
-/// next save drops them.
+/// Entries of earlier versions, without the numbers of list entries. Azel reads them without a
+/// note, and the next save drops them.
 const RETIRED: [&str; 1] = ["antenna.upkeep.upload"];
 
-/// An entry of the file that was not taken over as it stands.
+/// An entry that Azel did not use as written in the file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Note {
     /// Place in the file, such as `antenna[0].beam_width_deg`.
     pub place: String,
-    /// Its line in the file, from 1; `None` if it was not read from a file.
+    /// Line of the entry in the file, from 1; `None` if the entry was not read from a file.
     #[serde(default)]
     pub line: Option<usize>,
     pub reason: NoteReason,
 }
 
-/// Why an entry was not taken over.
+/// Reason why Azel did not use an entry as written.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum NoteReason {
-    /// The value cannot be used; the default replaces it.
+    /// An invalid value, which the default replaces.
     Invalid(String),
-    /// No such setting exists; perhaps a typing error.
+    /// An unknown setting, perhaps a typing error.
     Unknown,
-    /// A keep-out or the Sun avoidance cannot be used, so it does not hold.
+    /// An unusable keep-out or Sun avoidance, which does not apply.
     DoesNotHold {
-        /// Name that the operator gave it.
+        /// Name from the operator.
         name: String,
         #[serde(rename = "why")]
         reason: String,
     },
 }
 
-/// The station of a parsed station file with controllers of these makes, and notes on
-/// entries that were not taken over.
+/// Returns the station of a parsed station file with controllers of these makes, and notes on
+/// entries that Azel did not use as written.
 pub fn from_toml(table: Table, specs: &[&'static ControllerSpec]) -> (Station, Vec<Note>) {
     let Read { station, notes, .. } = read(table, specs);
     (station, notes)
 }
 
-/// A station, with notes on the entries of its file that could not be used.
+/// A station, with notes on the unusable entries of its file.
 pub(super) struct Read {
     pub(super) station: Station,
     pub(super) notes: Vec<Note>,
-    /// Places of the list entries that were left out.
+    /// Places of the omitted list entries.
     pub(super) left_out: Vec<String>,
 }
 
@@ -70,7 +70,7 @@ pub(super) struct Read {
 pub(super) fn read(mut table: Table, specs: &[&'static ControllerSpec]) -> Read {
     let mut fields = TableFields::new(&mut table, String::new());
     let default = Station::default();
-    // Checked in `file`, which refuses files of a newer program.
+    // `file` checks the version, and refuses files of a newer program.
     fields.table.remove("version");
     let mut station = Station {
         name: fields.text("name", &default.name),
@@ -98,14 +98,14 @@ pub(super) fn read(mut table: Table, specs: &[&'static ControllerSpec]) -> Read 
         antennas: fields.antennas(specs),
         unread: Vec::new(),
     };
-    // Before a station had its own, its first antenna set it.
+    // In earlier versions, the first antenna determined the AOS elevation of the station.
     let of_first = station.antennas.first().map(|antenna| antenna.limits.minimum_elevation_deg);
     station.aos_elevation_deg = fields.number(
         "aos_elevation_deg",
         &ranges::ELEVATION_DEG,
         of_first.unwrap_or(default.aos_elevation_deg),
     );
-    // These name antennas, and rules name groups.
+    // These entries name antennas, and rules name groups.
     station.keep_outs = fields.keep_outs(&station.antennas);
     let antennas: Vec<AntennaId> = station.antennas.iter().map(|antenna| antenna.id).collect();
     station.favourites = fields.favourites(default.favourites, &antennas);
@@ -125,7 +125,7 @@ struct TableFields<'a> {
     path: String,
     notes: Vec<Note>,
     left_out: Vec<String>,
-    /// Beginning of the places of each antenna.
+    /// Beginning of the places of each antenna, with its id.
     antenna_places: Vec<(String, AntennaId)>,
 }
 
@@ -166,7 +166,7 @@ impl TableFields<'_> {
         }
     }
 
-    /// A number within `range`, with or without decimals.
+    /// Reads a number within `range`, with or without decimals.
     fn number(&mut self, key: &str, range: &RangeInclusive<f64>, default: f64) -> f64 {
         let value = match self.table.remove(key) {
             None => return default,
@@ -248,7 +248,7 @@ impl TableFields<'_> {
         (mhz > 0.0).then_some(Frequency { satellite, mhz, name })
     }
 
-    /// Reads the tables of the list `key`. Those that cannot be used are left out with a note.
+    /// Reads the tables of the list `key`. Omits unusable tables with a note.
     fn list<T>(
         &mut self,
         key: &str,
@@ -314,7 +314,7 @@ impl TableFields<'_> {
             };
             let path = format!("{place}.");
             let mut fields = TableFields::new(&mut table, path.clone());
-            // Ids given later in the file are taken before a missing one is filled in.
+            // Ids that follow in the file are reserved before a missing id gets a value.
             let later = ids.iter().skip(index + 1).flatten().copied();
             let used_ids: Vec<AntennaId> =
                 antennas.iter().map(|other| other.id).chain(later).collect();
@@ -370,7 +370,7 @@ fn catalog_number(value: &Value) -> Option<u32> {
     value.as_integer().and_then(|number| u32::try_from(number).ok())
 }
 
-/// The id given in the table of an antenna.
+/// Returns the id in the table of an antenna.
 fn given_id(antenna: &Value) -> Option<AntennaId> {
     let id = antenna.get("id")?.as_integer()?;
     u32::try_from(id).ok().map(AntennaId)

@@ -1,37 +1,36 @@
-//! Writes new settings into the text of a station file that the operator may have edited: the
-//! comments, the order and the spelling of what has not changed stay.
+//! Merging of new settings into the text of a station file that the operator may have edited.
+//! Comments, order and spelling of unchanged entries stay.
 
 use std::collections::BTreeMap;
 
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, TableLike, Value};
 
-/// Key by which the tables of an array are recognised, such as antennas. Tables without it are
-/// recognised if they have not changed, or by their name, and else go by position.
+/// Key by which the merge matches the tables of an array, such as antennas. It matches other tables
+/// by equal content or by name, else by position.
 const ID: &str = "id";
 const NAME: &str = "name";
 
-/// `new` with the comments and the order of `old`. What the operator wrote beside a setting that
-/// is gone goes with it. Text that holds anything else than `new` is never returned: where the
-/// two cannot be brought together, it is `new` as it stands.
+/// Returns `new` with the comments and the order of `old`. Comments beside a removed setting go
+/// with it. If the merged text would not have the content of `new`, returns `new` unchanged.
 pub(super) fn rewritten(old: &str, new: &str) -> String {
     let is_valid = |merged: &str| is_same_text(merged, new);
     rewritten_with(old, old, new, &UnreadTree::default(), is_valid)
         .unwrap_or_else(|| new.to_owned())
 }
 
-/// Entries of a text that could not be read.
+/// Unreadable entries of a text.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct UnreadTree {
-    /// The whole entry.
+    /// `true` if the whole entry is unreadable.
     is_whole: bool,
-    /// The entry of a list was left out.
+    /// `true` if the entry was omitted from a list.
     is_left_out: bool,
     keys: BTreeMap<String, UnreadTree>,
     indices: BTreeMap<usize, UnreadTree>,
 }
 
 impl UnreadTree {
-    /// The entries at places such as `antenna[0].limits`, and those that were left out of a list.
+    /// Returns the entries at places such as `antenna[0].limits`, and the omitted list entries.
     pub(super) fn find<'a>(
         places: impl IntoIterator<Item = &'a str>,
         left_out: impl IntoIterator<Item = &'a str>,
@@ -73,8 +72,9 @@ static ALL_READ: UnreadTree = UnreadTree {
     indices: BTreeMap::new(),
 };
 
-/// Like [`rewritten`], but keeps each unreadable entry of `old` unless the operator has changed that
-/// setting. `read` is the readable part of `old`. Returns `None` if `is_valid` rejects the text.
+/// Merges like [`rewritten`], but keeps each unreadable entry of `old` unless the operator has
+/// changed that setting. `read` is the readable part of `old`. Returns `None` if `is_valid` rejects
+/// the text.
 pub(super) fn rewritten_with(
     old: &str,
     read: &str,
@@ -95,7 +95,7 @@ fn is_same_text(one: &str, other: &str) -> bool {
     one.is_some() && one == other
 }
 
-/// `read`: what was read of `old`.
+/// Merges `new` into `old`. `read` is the readable part of `old`.
 fn merge(old: &mut dyn TableLike, read: Option<&dyn TableLike>, new: Table, unread: &UnreadTree) {
     let removed: Vec<String> =
         old.iter().map(|(key, _)| key.to_owned()).filter(|key| !new.contains_key(key)).collect();
@@ -123,7 +123,7 @@ fn merge(old: &mut dyn TableLike, read: Option<&dyn TableLike>, new: Table, unre
     }
 }
 
-/// Leaves nothing of `old` but what could not be read.
+/// Removes everything from `old` except its unreadable entries.
 fn keep_unread(old: &mut Item, read: Option<&Item>, unread: &UnreadTree) {
     let empty = match old {
         Item::ArrayOfTables(_) | Item::Value(Value::Array(_)) => {
@@ -136,12 +136,13 @@ fn keep_unread(old: &mut Item, read: Option<&Item>, unread: &UnreadTree) {
 
 fn merge_item(old: &mut Item, read: Option<&Item>, new: Item, unread: &UnreadTree) {
     let mut new = new;
-    // An empty list of tables is written as `antenna = []`.
+    // The new text has `antenna = []` for an empty list of tables.
     if new.as_array().is_some_and(Array::is_empty) && !unread.indices.is_empty() {
         new = Item::ArrayOfTables(ArrayOfTables::new());
     }
     if old.is_value() && !unread.indices.is_empty() {
-        // A list such as `keep_out = [{ name = "mast" }]`, perhaps with something else in it.
+        // The old entry is a list such as `keep_out = [{ name = "mast" }]`, perhaps with other
+        // values.
         match std::mem::take(old).into_array_of_tables() {
             Ok(tables) if new.is_array_of_tables() => *old = Item::ArrayOfTables(tables),
             Ok(tables) => {
@@ -171,7 +172,7 @@ fn merge_item(old: &mut Item, read: Option<&Item>, new: Item, unread: &UnreadTre
         }
         (Item::Value(old), Item::Value(new)) => merge_value(old, new),
         (Item::Table(old), Item::Table(new)) => {
-            // Without a header or a dotted key, an empty table would not be written.
+            // Without a header or a dotted key, an empty table would be missing in the text.
             old.set_implicit(old.is_implicit() && !new.is_empty());
             old.set_dotted(old.is_dotted() && !new.is_empty());
             merge(old, read_table, new, unread);
@@ -179,7 +180,7 @@ fn merge_item(old: &mut Item, read: Option<&Item>, new: Item, unread: &UnreadTre
         (Item::ArrayOfTables(old), Item::ArrayOfTables(new)) => {
             merge_tables(old, read.and_then(Item::as_array_of_tables), new, unread);
         }
-        // Such as `site = { latitude_deg = 41.0, longitude_deg = 29.0 }`.
+        // The old entry is a table such as `site = { latitude_deg = 41.0, longitude_deg = 29.0 }`.
         (Item::Value(Value::InlineTable(old)), Item::Table(new)) => {
             merge(old, read_table, new, unread);
         }
@@ -202,7 +203,7 @@ fn merge_value(old: &mut Value, new: Value) {
     *old.decor_mut() = decor;
 }
 
-/// Each value of `new` with the comments of the same value of `old`, if that has it.
+/// Replaces the values of `old` with those of `new`, and keeps the comments of equal values.
 fn merge_array(old: &mut Array, new: Array) {
     let mut rest: Vec<Option<Value>> = old.iter().cloned().map(Some).collect();
     old.clear();
@@ -222,7 +223,7 @@ struct OldTable<'a> {
 }
 
 impl OldTable<'_> {
-    /// Returns `true` if this table, or what was read of it, is `new` in this sense.
+    /// Returns `true` if `is_known` matches this table, or its readable part, with `new`.
     fn matches(&self, is_known: fn(&Table, &Table) -> bool, new: &Table) -> bool {
         is_known(&self.table, new) || self.read.is_some_and(|read| is_known(read, new))
     }
@@ -246,7 +247,7 @@ fn merge_tables(
         }
     }
     let mut old_tables: Vec<Option<OldTable<'_>>> = new.iter().map(|_| None).collect();
-    // Sure matches take their tables before tables that only stand in the same place.
+    // Matches by id, content or name take their tables before matches by position.
     for is_known in [is_of_same_id, is_unchanged, is_of_same_name] {
         for (previous, new) in
             old_tables.iter_mut().zip(new.iter()).filter(|(previous, _)| previous.is_none())
@@ -310,7 +311,7 @@ fn is_same_item(old: &Item, new: &Item) -> bool {
     old.as_value().zip(new.as_value()).is_some_and(|(old, new)| is_same(old, new))
 }
 
-/// Returns `true` if both mean the same, however they are spelled.
+/// Returns `true` if both values are equal, in any spelling.
 fn is_same(old: &Value, new: &Value) -> bool {
     match (old, new) {
         (Value::String(old), Value::String(new)) => old.value() == new.value(),
@@ -331,8 +332,8 @@ fn is_same_array(old: &Array, new: &Array) -> bool {
     old.len() == new.len() && old.iter().zip(new).all(|(old, new)| is_same(old, new))
 }
 
-/// Forgets at which place of their texts the tables stood: those of a moved antenna would be
-/// written below another one.
+/// Removes the text positions of the tables. Otherwise the tables of a moved antenna would follow
+/// another antenna.
 fn unplace(table: &mut Table) {
     table.set_position(None);
     for (_, item) in table.iter_mut() {

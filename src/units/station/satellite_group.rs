@@ -4,12 +4,13 @@ use serde::{Deserialize, Serialize};
 
 use super::{PassLimits, Priority};
 
-/// Satellites with a priority and limits for those that have none of their own.
+/// Satellites that share a priority and limits. A satellite's own priority and limits take
+/// precedence.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SatelliteGroup {
-    /// Not empty, and unique among the groups of the station.
+    /// Name, not empty, and unique among the groups of the station.
     pub name: String,
-    /// Catalog numbers.
+    /// Catalog numbers of the satellites.
     pub satellites: Vec<u32>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub priority: Option<Priority>,

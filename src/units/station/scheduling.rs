@@ -1,4 +1,4 @@
-//! How the station plans its passes and takes them by itself.
+//! Settings for the schedule of the station and for automatic operation.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,19 +6,19 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Scheduling {
     pub choose_by: ChooseBy,
-    /// Hours ahead that are planned, 12 to 168.
+    /// Time ahead that the schedule covers, hours, 12 to 168.
     pub span_h: f64,
-    /// `None` takes passes whole or not at all.
+    /// Min part of a pass; `None` for whole passes only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub partly: Option<Partly>,
-    /// One antenna may hand a pass over to another in its middle.
+    /// `true` if one antenna may hand a pass over to another in its middle.
     pub hand_over: bool,
-    /// Passes with older elements are not taken, days; `None` takes them however old.
+    /// Max age of the elements of a pass, days; `None` for any age.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_element_age_d: Option<f64>,
-    /// Rest after which a motion of automatic operation is announced, minutes.
+    /// Rest after which Azel announces a motion of automatic operation, minutes.
     pub warn_after_rest_min: f64,
-    /// How long it is announced, seconds, at least 30.
+    /// Duration of this announcement, seconds, at least 30.
     pub warning_s: f64,
 }
 
@@ -26,19 +26,19 @@ pub struct Scheduling {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ChooseBy {
-    /// Priority by priority, the seconds times the sine of the maximum elevation.
+    /// Seconds times the sine of the max elevation, one priority after another.
     #[default]
     Elevation,
-    /// Priority by priority, the seconds.
+    /// Seconds of the taken passes, one priority after another.
     Duration,
     MostPasses,
     MostMinutes,
 }
 
-/// Minimum part of a pass that is worth taking.
+/// Min part of a pass that the schedule takes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Partly {
-    /// Share of the seconds that count, per cent, 1 to 100.
+    /// Min share of the seconds that count, per cent, 1 to 100.
     #[serde(rename = "least_percent")]
     pub min_percent: f64,
     #[serde(rename = "least_s")]
@@ -48,34 +48,34 @@ pub struct Partly {
 /// Automatic operation of one antenna.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Automatic {
-    /// Automatic operation is on from an orderly start.
+    /// `true` if automatic operation is on after an orderly start.
     #[serde(rename = "automatic_operation_at_start", skip_serializing_if = "super::is_default")]
     pub is_on_at_start: bool,
-    /// Automatic operation resumes after a crash or a power cut, if it was on.
+    /// `true` if automatic operation resumes after a crash or a power cut, if it was on.
     #[serde(rename = "automatic_operation_after_crash", skip_serializing_if = "super::is_default")]
     pub resumes_after_crash: bool,
-    /// Where the antenna is between two passes.
+    /// Position of the antenna between two passes.
     #[serde(rename = "between_passes", skip_serializing_if = "super::is_default")]
     pub between_passes: BetweenPasses,
-    /// A unit with a program of its own is left to start the next pass without this computer.
+    /// `true` if a unit with a program of its own starts the next pass without this computer.
     #[serde(rename = "uses_auto_track", skip_serializing_if = "super::is_default")]
     pub uses_auto_track: bool,
-    /// Time from the end of one pass until the antenna can go to the next, seconds; `None` for
-    /// that of its make.
+    /// Time from the end of one pass until the antenna can go to the next, seconds; `None` for the
+    /// default of its make.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub set_up_s: Option<f64>,
 }
 
-/// Where an antenna is between two passes of the schedule.
+/// Position of an antenna between two passes of the schedule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BetweenPasses {
-    /// Where the last pass ended, until it has to go to the next.
+    /// End of the last pass, until the antenna has to go to the next.
     #[default]
     Stay,
-    /// Where the next pass begins.
+    /// Start of the next pass.
     Wait,
-    /// At its park position, where the time is enough for both ways.
+    /// Park position, if the time suffices for both ways.
     Park,
 }
 

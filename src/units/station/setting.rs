@@ -1,5 +1,5 @@
-//! A setting of a connection that only one make of controller has, described once for the
-//! station file and for the form.
+//! A setting of a connection that only one make of controller has. One description serves the
+//! station file and the form.
 
 use serde::{Deserialize, Serialize, Serializer};
 
@@ -11,32 +11,32 @@ use crate::device::{
 /// One setting of a connection.
 #[derive(Debug)]
 pub struct Setting {
-    /// Its key in the station file, what it can hold and its label in the form.
+    /// Key in the station file, valid values and label in the form.
     pub field: Field,
-    /// The table of the station file that it stands in, within that of the connection; `None`
-    /// where it stands in that one itself. Settings of one table follow on each other.
+    /// Table of the setting within the connection's table of the station file; `None` for the
+    /// connection's own table. Settings of one table follow each other.
     pub table: Option<Table>,
     pub default: fn() -> Value,
-    /// A sentence about a value, to stand below it.
+    /// Function that returns a sentence about a value, to show below the value.
     pub note: fn(&Value) -> Option<&'static str>,
 }
 
-/// A table of settings within that of the connection.
+/// A table of settings within the connection's table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Table {
-    /// Names it in the station file.
+    /// Name of the table in the station file.
     pub key: &'static str,
-    /// Above its settings in the form.
+    /// Title above its settings in the form.
     pub title: &'static str,
 }
 
 impl Setting {
-    /// A default that says nothing (an empty text, no points) is not written to the file.
+    /// Returns a setting. The file omits an empty default (an empty text, no points).
     pub const fn new(field: Field, default: fn() -> Value) -> Self {
         Self { field, table: None, default, note: |_| None }
     }
 
-    /// With a table of its own, or that of its neighbours.
+    /// Returns the setting in this table, which its neighbours may share.
     #[must_use]
     pub const fn in_table(self, table: Table) -> Self {
         Self { table: Some(table), ..self }
@@ -47,7 +47,7 @@ impl Setting {
         Self { note, ..self }
     }
 
-    /// Reads the value of the station file; a reason reads on from the key.
+    /// Reads the value of the station file. The reason in an error completes the key.
     pub(super) fn read(&self, value: toml::Value) -> Result<Value, Unfit> {
         let kind = &self.field.kind;
         let read = match (kind, value) {
@@ -70,7 +70,7 @@ impl Setting {
         Ok(read)
     }
 
-    /// As the station file spells its values.
+    /// Returns the reason to refuse a value, in the spelling of the station file.
     fn unfit(&self) -> Unfit {
         let kind = &self.field.kind;
         match kind {
@@ -90,7 +90,7 @@ impl Setting {
     }
 }
 
-/// The station file does not spell its values as the form does.
+/// Returns `true` if the station file spells the values of this kind differently from the form.
 fn has_own_spelling(kind: &Kind) -> bool {
     matches!(kind, Kind::Choice(_) | Kind::Word(_))
 }
@@ -100,7 +100,7 @@ fn points(value: toml::Value) -> Result<Value, Unfit> {
     points.map(Value::Points).map_err(|error| Unfit::Text(error.message().to_owned()))
 }
 
-/// Says nothing, and is left out of the station file.
+/// Returns `true` for an empty value, which the station file omits.
 pub(super) fn is_empty(value: &Value) -> bool {
     match value {
         Value::Text(text) => text.is_empty(),
@@ -109,7 +109,7 @@ pub(super) fn is_empty(value: &Value) -> bool {
     }
 }
 
-/// A value as the station file spells it.
+/// A value in the spelling of the station file.
 pub(super) struct Spelled<'a>(pub(super) &'a Setting, pub(super) &'a Value);
 
 impl Serialize for Spelled<'_> {

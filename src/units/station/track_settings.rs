@@ -9,7 +9,7 @@ use serde::Serialize;
 pub struct TrackSettings {
     /// Time between two checks of the position, seconds, 0.05 to 600.
     pub period_s: f64,
-    /// No new position is sent while the last one is off by less, degrees, 0 to 90. It
+    /// Position error below which Azel sends no new position, degrees, 0 to 90. This dead band
     /// spares the relays of the drives.
     pub dead_band_deg: f64,
     /// Time from a command until the antenna moves, seconds, 0 to 60.
@@ -21,16 +21,16 @@ pub struct TrackSettings {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum AfterPass {
-    /// It stays where it is.
+    /// Standstill at the last position.
     Hold,
-    /// It goes to its park position.
+    /// Move to the park position.
     Park,
-    /// It waits where the next pass of its target rises.
+    /// Move to the point where the next pass of the target rises.
     Next,
 }
 
 impl TrackSettings {
-    /// Time between two checks of the position.
+    /// Returns the time between two checks of the position.
     pub fn period(&self) -> Duration {
         Duration::try_from_secs_f64(self.period_s.clamp(0.05, 600.0))
             .unwrap_or(Duration::from_secs(1))

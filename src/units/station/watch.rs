@@ -2,8 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-/// Reaction of the monitor when somebody else drives the antenna into a forbidden
-/// direction.
+/// Reaction of the monitor when another operator drives the antenna into a forbidden direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Monitor {
@@ -14,36 +13,36 @@ pub enum Monitor {
     Alarm,
 }
 
-/// Action on an intent when the link is back after an outage.
+/// Action on an intent when the link returns after an outage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Resume {
-    /// The operator is asked.
+    /// A question to the operator.
     #[default]
     Ask,
-    /// The intent goes on, unless the outage was longer than the station allows.
+    /// Continuation of the intent, unless the outage was longer than the station allows.
     Continue,
 }
 
-/// In the file: `true` for [`Self::Continue`].
+/// Writes `true` for [`Self::Continue`], else `false`.
 impl Serialize for Resume {
     fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
         (*self == Self::Continue).serialize(out)
     }
 }
 
-/// Action on the antennas when the program ends.
+/// Action on the antennas when Azel closes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum OnClose {
-    /// They stop and stay.
+    /// Standstill of the antennas.
     Hold,
-    /// They go to their park positions.
+    /// Move of the antennas to their park positions.
     Park,
-    /// They go on with their present activity.
+    /// Continuation of the current activity.
     Leave,
 }
 
 /// Default sway of a standing antenna between two positions, degrees.
 pub const DEFAULT_SWAY_DEG: f64 = 0.1;
-/// Default longest outage after which an antenna goes on, seconds.
+/// Default max outage after which an antenna continues without a question, seconds.
 pub const DEFAULT_RESUME_AFTER_S: f64 = 5.0;

@@ -55,7 +55,7 @@ const NOT_NOW: &str = "the unit takes no such command in this phase of TRACK: ch
                        it carries out later, or wait";
 const UNHEARD_OF: &str = "where this leads is not known";
 
-/// In the order of the panel.
+/// Actions in the order of the panel.
 pub(super) const ACTIONS: &[Action] = &[
     Action {
         fields: &[
@@ -123,8 +123,8 @@ const fn moving(key: &'static str, label: &'static str, subject: &'static str) -
     Action { moves: true, ..still(key, label, subject) }
 }
 
-/// An alarm forbids motion, so clearing it cannot count as one. A stop goes first, lest
-/// something pending goes on.
+/// Returns the action that clears an alarm. An alarm forbids motion, so the action does not count
+/// as motion. Azel sends a stop first to end any pending motion.
 const fn resetting(key: &'static str, label: &'static str) -> Action {
     Action {
         question: Some(
@@ -193,8 +193,8 @@ impl Rc2000c {
         }
     }
 
-    /// The reason for which the unit would refuse to turn the polarization now. It accepts H and
-    /// V in every phase of TRACK.
+    /// Returns the reason for which the unit would refuse to turn the polarization now. The unit
+    /// accepts H and V in every phase of TRACK.
     pub(super) fn objection_to(&self, origin: &MotionRequest) -> Option<&'static str> {
         let MotionRequest::Action(TO_POLARIZATION | POLARIZATION_CW | POLARIZATION_CCW) = origin
         else {
@@ -207,7 +207,8 @@ impl Rc2000c {
     }
 
     pub(super) fn lead(&self, act: &Act) -> Lead {
-        // An action that cannot be sent leads nowhere; the reason is reported when it is sent.
+        // An action that cannot be sent leads nowhere; Azel reports the reason when it sends the
+        // action.
         if self.request_of(act).is_err() {
             return Lead::Nowhere;
         }
@@ -252,7 +253,7 @@ impl Rc2000c {
         Ok([integer(act, &AZ_COUNTS)?, integer(act, &EL_COUNTS)?])
     }
 
-    /// A move would take the antenna out of the unit's own tracking.
+    /// Refuses a move that would end the unit's own tracking, unless the operator agreed to that.
     fn check_track(&self, act: &Act) -> Result<(), String> {
         let is_told = END_TRACK.get(&act.values) == Some(true);
         if is_told || !self.status.as_ref().is_some_and(is_tracking) {

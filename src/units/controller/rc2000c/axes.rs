@@ -8,9 +8,9 @@ use crate::{
     station::Mount,
 };
 
-/// A standing axis may read one step more or less.
+/// Max change of the reading of a standing axis, steps.
 const UNSTEADY: u16 = 1;
-/// Largest noise of a sensor, degrees.
+/// Max noise of a sensor, degrees.
 const NOISE_DEG: f64 = 1.0;
 const TURN_DEG: f64 = 360.0;
 /// Drive number of an auto move, which shows no direction.
@@ -32,8 +32,8 @@ impl Axes {
         self.lines.iter().all(Option::is_some)
     }
 
-    /// Azimuth and elevation in `status`. An axis whose position differs from `before` is
-    /// moving: the unit does not report one that runs out.
+    /// Returns azimuth and elevation in `status`. An axis whose position differs from `before` is
+    /// moving: the unit does not report an axis that coasts.
     pub(super) fn read(&self, status: &Status, before: Option<&Status>) -> [Axis; 2] {
         let angle_axes = |status: &Status| [status.azimuth, status.elevation];
         let before = before.map(angle_axes);
@@ -63,8 +63,8 @@ impl Axes {
     }
 
     /// Finds the turn of an azimuth that the display has wrapped to 0 to 360 degrees. The axis is
-    /// near where it was `before`, if that is known. Where it may be on either of two turns, it
-    /// has no angle.
+    /// near its angle in `before`, if that is known. An axis that may be on either of two turns
+    /// gets no angle.
     pub(super) fn unwrapped(
         azimuth: Axis,
         position: Position,
@@ -92,15 +92,15 @@ impl Axes {
         } else if lowest_deg <= to_deg + NOISE_DEG {
             Some(lowest_deg)
         } else {
-            // Outside its travel.
+            // The axis is outside its travel.
             Some(shown_deg)
         };
         Axis { angle_deg, ..azimuth }
     }
 
-    /// The direction of the antenna with these axes. On a mount that does not flip, an
-    /// elevation a little beyond 90 degrees is noise of the sensor. An axis at its limit
-    /// reports no angle, but the side on which a flipped antenna points.
+    /// Returns the direction of the antenna with these axes. On a mount that does not flip, an
+    /// elevation a little beyond 90 degrees is noise of the sensor. An axis at its limit reports no
+    /// angle, but still shows on which side a flipped antenna points.
     pub(super) fn pointing(axes: [Axis; 2], mount: &Mount) -> Pointing {
         let [azimuth, elevation] = axes.map(|axis| axis.angle_deg.map(Angle::from_degrees));
         let azimuth = azimuth.map(Angle::wrapped_360);
@@ -119,7 +119,7 @@ impl Axes {
         }
     }
 
-    /// The direction of a jog that makes the angle of one axis grow or fall.
+    /// Returns the direction of a jog that increases or decreases the angle of one axis.
     pub(super) fn direction(&self, x_deg_s: f64, y_deg_s: f64) -> Direction {
         let [azimuth, elevation] = self.lines;
         let grows = |rate: f64, line: Option<CountLine>| {
@@ -133,9 +133,10 @@ impl Axes {
         }
     }
 
-    /// The counts of a move to a direction. Both axes always move: one that should stay is sent to its
-    /// present counts, or to the end of its travel if it stands at that limit and tells none. Noise
-    /// may read one that stands at an end a little beyond it; the unit would refuse such counts.
+    /// Returns the counts of a move to a direction. The command always moves both axes. Azel sends
+    /// an axis that should stay to its current counts, or to its end if it stands at a limit and
+    /// reports no counts. Noise may show a position a little beyond an end, which the unit would
+    /// refuse.
     pub(super) fn counts(
         &self,
         azimuth: Option<Angle>,
@@ -179,22 +180,22 @@ impl Axes {
         Ok([az_counts, el_counts])
     }
 
-    /// The angles of the axes at these counts, degrees as the mount counts; `None` unless both
-    /// are calibrated.
+    /// Returns the angles of the axes at these counts, degrees of the mount; `None` unless both
+    /// axes are calibrated.
     pub(super) fn degrees(&self, counts: [u16; 2]) -> Option<[Option<f64>; 2]> {
         let [azimuth, elevation] = self.lines;
         Some([Some(azimuth?.degrees(counts[0])), Some(elevation?.degrees(counts[1]))])
     }
 }
 
-/// The end of the travel beyond which `at_deg` lies by no more than noise.
+/// Returns the end of the travel if `at_deg` lies beyond that end by no more than noise.
 fn end_beside(at_deg: f64, from_deg: f64, to_deg: f64) -> Option<f64> {
     let end_deg = at_deg.clamp(from_deg, to_deg);
     let beyond_deg = (at_deg - end_deg).abs();
     (beyond_deg > 0.0 && beyond_deg <= NOISE_DEG).then_some(end_deg)
 }
 
-/// Counts need a calibration; a displayed angle does not.
+/// Returns the angle of a position, degrees. Counts need a calibration; a displayed angle does not.
 fn angle_deg(position: Position, line: Option<CountLine>) -> Option<f64> {
     match position {
         Position::Counts(counts) => Some(line?.degrees(counts)),
@@ -239,7 +240,8 @@ fn motion(
     }
 }
 
-/// The shorter way round from one shown angle to another, tenths of a degree: the display may wrap.
+/// Returns the shorter way round from one shown angle to another, tenths of a degree: the display
+/// may wrap.
 fn turned_tenths(before: i16, now: i16) -> i16 {
     let turned = (i32::from(now) - i32::from(before) + 1800).rem_euclid(3600) - 1800;
     i16::try_from(turned).unwrap_or_default()

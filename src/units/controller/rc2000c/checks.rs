@@ -30,7 +30,7 @@ pub(super) fn checks(
     checks
 }
 
-/// Returns `true` if the unit reports something with which nothing may be moved.
+/// Returns `true` if the unit reports a fault that forbids every motion.
 pub(super) fn forbids_motion(status: &Status) -> bool {
     let drives = [
         drive("Azimuth drive", status.azimuth_drive),
@@ -88,7 +88,7 @@ fn drive(name: &'static str, drive: AxisDrive) -> Check {
     Check { locks_motion: true, ..Check::new(name, state, advice) }
 }
 
-/// The most urgent alarm; the next one shows when it is cleared.
+/// Returns the most urgent alarm; the unit shows the next alarm when this one is cleared.
 pub(super) fn alarm(alarm: Alarm) -> Option<Check> {
     let enter_again = "The memory of the unit has lost it. Enter it again in CONFIG mode.";
     let (name, advice) = match alarm {
@@ -150,8 +150,8 @@ fn tracking(submode: Submode) -> Option<Check> {
     Some(Check::new("TRACK", CheckState::Fault, advice))
 }
 
-/// A relative of the RC2000C numbers its alarms differently, and the axes of a polar mount are
-/// not azimuth and elevation.
+/// Returns a warning for another kind of unit. Related units number their alarms differently, and
+/// the axes of a polar mount are not azimuth and elevation.
 fn kind(device: DeviceType) -> Option<Check> {
     let advice = match device.mount {
         MountKind::ElevationOverAzimuth | MountKind::AzimuthOverElevation => return None,

@@ -114,7 +114,7 @@ impl Device for Rc2000c {
             outstanding.disown();
         }
         let stands = |status: &Status| status.polarization_motion == PolarizationMotion::Still;
-        // A halt of a jog must not take back what STOP has begun.
+        // The halt of a jog must not undo the request that STOP has made.
         self.holds_polarization |=
             extent != Extent::Motion && !self.status.as_ref().is_some_and(stands);
         self.halt = Some(Outstanding::new(Request::Stop, Purpose::Halt, self.line, now));
@@ -148,7 +148,8 @@ impl Device for Rc2000c {
         is_sent || !self.orders.is_empty() || self.jog.is_some()
     }
 
-    /// A move always contains both axes: an axis that should stay is sent its last position.
+    /// Returns the motion as Azel sends it. A move always contains both axes: an axis that should
+    /// stay gets its last position.
     fn as_sent(&self, motion: Motion) -> Motion {
         let Motion::Position { azimuth, elevation } = motion else { return motion };
         let status = self.status.as_ref();
@@ -167,7 +168,7 @@ impl Device for Rc2000c {
     }
 
     fn patience(&self) -> Duration {
-        // A question and its two repetitions, on top of the wait for it.
+        // The limit covers a question and its two repetitions, in addition to the poll period.
         self.poll_period() + self.line.longest_wait() * 3
     }
 
@@ -182,12 +183,12 @@ impl Rc2000c {
         self.outstanding.is_none() && self.halt.is_none()
     }
 
-    /// When an unfinished frame is given up.
+    /// Returns the time at which Azel gives up an unfinished frame.
     fn silent_at(&self) -> Option<Instant> {
         self.heard_at.map(|instant| instant + self.line.silence())
     }
 
-    /// When there is something to send, with nothing outstanding.
+    /// Returns the time of the next transmission if nothing is outstanding.
     fn next_due(&self, now: Moment) -> Option<Instant> {
         let poll_at = self.poll_at?;
         let is_asked = self.wants_device
@@ -219,7 +220,7 @@ impl Controller for Rc2000c {
     }
 
     fn start(&mut self, motion: Motion) {
-        // A newer request replaces one that has not gone out yet.
+        // A newer request replaces a request that was not sent yet.
         self.orders.clear();
         match motion {
             Motion::Jog { x_deg_s, y_deg_s } if x_deg_s == 0.0 || y_deg_s == 0.0 => {

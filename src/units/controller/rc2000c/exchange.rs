@@ -13,9 +13,9 @@ use crate::{
     },
 };
 
-/// Maximum number of times that a question is asked in a row; other commands are sent once.
+/// Max number of times that Azel asks a question in a row; it sends other commands once.
 const MAX_TRIES: usize = 3;
-/// An axis turns by less than half a turn in this time.
+/// Time in which an axis turns by less than half a turn.
 const CONTINUOUS: Duration = Duration::from_secs(5);
 const REMOTE_DISABLED: &str = "remote mode is disabled on the unit";
 
@@ -24,13 +24,13 @@ const REMOTE_DISABLED: &str = "remote mode is disabled on the unit";
 pub(super) enum Purpose {
     /// A poll that was due.
     Poll,
-    /// Another question.
+    /// A question other than a poll.
     Question,
     /// A request of the operator; `None` for a part of a halt.
     Order(Option<MotionRequest>),
-    /// A halt ahead of everything.
+    /// A halt, which precedes all other commands.
     Halt,
-    /// Overtaken by a halt: its reply does not matter.
+    /// A request that a halt has overtaken: its reply does not matter.
     Disowned,
 }
 
@@ -72,7 +72,7 @@ impl Outstanding {
 }
 
 impl Rc2000c {
-    /// Takes a frame of the stream.
+    /// Takes a received frame.
     pub(super) fn take_frame(&mut self, frame: Result<Frame, FrameError>, now: Moment) {
         let frame = match frame {
             Ok(frame) => frame,
@@ -86,7 +86,7 @@ impl Rc2000c {
         self.record_frame(&frame, now);
         match Reply::parse(&frame) {
             Ok(reply) => self.match_reply(&reply, now),
-            // Adapters for such lines send back what they hear.
+            // Adapters for such lines return the bytes that they receive.
             Err(ReplyError::Echo { .. }) => self.state.traffic.odd += 1,
             Err(error) => {
                 self.state.traffic.unreadable += 1;
@@ -122,7 +122,7 @@ impl Rc2000c {
         self.refresh_panel();
     }
 
-    /// Takes a reply that no open request waits for: a status may answer a missing question.
+    /// Takes a reply without an open request: a status may answer a missing question.
     fn take_surplus(&mut self, reply: &Reply, now: Moment) {
         if let Reply::Status { command: Command::Status, status } = reply
             && let Some(moment) = self.missing.pop_front()
@@ -142,9 +142,9 @@ impl Rc2000c {
         self.gap_until = Some(now.steady + GAP);
     }
 
-    /// When the question went out that `answered` answers at the earliest. The unit answers each
-    /// question at most once and in order, so a status is at least as young as the oldest
-    /// question that may still be unanswered.
+    /// Returns the earliest time at which the question that `answered` answers was sent. The unit
+    /// answers each question at most once and in order. A status is therefore at least as young as
+    /// the oldest unanswered question.
     fn question_time(&mut self, answered: &Outstanding) -> Moment {
         let sent = answered.clock.sent;
         if answered.purpose != Purpose::Poll {
@@ -162,9 +162,9 @@ impl Rc2000c {
         self.drain_until.take_if(|_| self.missing.is_empty());
     }
 
-    /// Until when only a halt may go out. Surplus answers are waited for, so that they show as
-    /// such; but while the antenna moves and one status is missing, Azel asks on, and each answer
-    /// counts as asked one question earlier.
+    /// Returns the end of the pause in which only a halt may go out. Azel waits for surplus answers
+    /// to recognise them. While the antenna moves and one status is missing, Azel continues to ask,
+    /// and counts each answer as asked one question earlier.
     pub(super) fn quiet_until(&self) -> Option<Instant> {
         let drain = self.drain_until.filter(|_| !self.is_watched || self.missing.len() != 1);
         self.gap_until.max(drain)
@@ -190,7 +190,8 @@ impl Rc2000c {
             Reply::SatelliteName(entry) => self.names.take(entry),
             Reply::Status { status, .. } => {
                 self.take_status(*status, moment, answered.clock.sent, now);
-                // From question to question, so that a slow line is not made slower.
+                // The period counts from question to question, which does not slow down a slow line
+                // further.
                 let period = self.rates.period(self.moving());
                 self.poll_at = Some(answered.clock.sent.steady + period);
                 if let Purpose::Order(origin) = answered.purpose {
@@ -204,10 +205,10 @@ impl Rc2000c {
         }
     }
 
-    /// Takes a status. `moment`: when its question went out at the earliest; `sent`: at the
+    /// Takes a status. `moment` is the earliest time at which its question was sent, `sent` the
     /// latest.
     fn take_status(&mut self, status: Status, moment: Moment, sent: Moment, now: Moment) {
-        // A unit that was not allowed to answer is asked for its type once it is.
+        // An offline unit did not report its type, so Azel asks once the unit is online.
         self.wants_device |= std::mem::take(&mut self.is_offline) && self.device.is_none();
         let axes = self.axes.read(&status, self.past.before(now.steady));
         self.past.push(status, now.steady);
@@ -239,8 +240,8 @@ impl Rc2000c {
         self.hold_polarization(&status);
     }
 
-    /// A stop of the axes leaves the polarization turning. It is sent to its present position;
-    /// a jog of it ends by itself.
+    /// Sends the polarization to its current position, because a stop of the axes leaves it
+    /// turning. A jog of the polarization ends on the unit's timer.
     fn hold_polarization(&mut self, status: &Status) {
         if !std::mem::take(&mut self.holds_polarization) {
             return;
@@ -254,7 +255,7 @@ impl Rc2000c {
         }
     }
 
-    /// The unit refused.
+    /// Handles a refusal of the unit.
     fn fail(&mut self, answered: &Outstanding, reason: String, now: Moment) {
         self.end_jog(answered, |origin| ControllerEvent::Refused(origin, reason.clone()));
         match answered.purpose {
@@ -280,8 +281,8 @@ impl Rc2000c {
         }
     }
 
-    /// Nothing renews the jog any more: the unit's timer ends it. Reported unless the failed
-    /// command was the jog itself.
+    /// Ends the held jog: Azel renews it no more, and the unit's timer stops it. Reports the end
+    /// unless the failed command was the jog.
     fn end_jog(
         &mut self,
         failed: &Outstanding,
@@ -295,14 +296,14 @@ impl Rc2000c {
         self.events.extend(ended.map(|jog| tell(jog.motion.into())));
     }
 
-    /// Handles a missing reply. A question is repeated; other commands never, because the next
-    /// status shows whether they arrived.
+    /// Handles a missing reply. Azel repeats a question but never another command, because the next
+    /// status shows whether that command arrived.
     pub(super) fn expire(&mut self, now: Moment) -> Option<Vec<u8>> {
         if let Some(late) = self.halt.take_if(|halt| now.steady >= halt.clock.deadline()) {
             self.miss(&late, false, now);
             self.look_soon(now);
         }
-        // Two would be on the line at once.
+        // A second command would be on the line together with the halt.
         if self.halt.is_some() {
             return None;
         }
@@ -339,7 +340,7 @@ impl Rc2000c {
         None
     }
 
-    /// When the reply to `sent` is missing.
+    /// Returns the time from which the reply to `sent` counts as missing.
     pub(super) fn deadline(&self, sent: &Outstanding) -> Instant {
         let is_question = matches!(sent.purpose, Purpose::Poll | Purpose::Question);
         if self.is_watched && is_question {

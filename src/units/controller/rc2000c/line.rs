@@ -1,5 +1,4 @@
-//! Timing of the line. The vendor documents only the speed; the other figures are on the safe
-//! side.
+//! Timing of the line. The vendor documents only the speed; the other values are conservative.
 
 use std::time::Duration;
 
@@ -8,14 +7,14 @@ use crate::{
     protocol::rc2000c::{Address, MAX_COMMAND_BYTES, MAX_FRAME_BYTES, Request},
 };
 
-/// Start, seven data bits, parity, stop.
+/// Bits of one character: start, seven data bits, parity, stop.
 const BITS_PER_CHARACTER: u32 = 10;
-/// Time that the unit may need in addition to that of the characters.
+/// Max time that the unit needs in addition to the transmission of the characters.
 const LATENCY: Duration = Duration::from_secs(1);
-/// Gap between a reply and the next command.
+/// Min gap between a reply and the next command.
 pub(super) const GAP: Duration = Duration::from_millis(50);
-/// A frame whose next character does not come within this time, or within the time of twenty
-/// characters, is given up.
+/// Min silence after which Azel gives up an unfinished frame; [`SILENT_CHARACTERS`] applies if that
+/// is longer.
 const SILENCE: Duration = Duration::from_millis(100);
 const SILENT_CHARACTERS: u32 = 20;
 
@@ -25,42 +24,42 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// A line of `baud` bits a second.
+    /// Returns a line of `baud` bits a second.
     pub(super) fn new(baud: u32) -> Self {
         Self { character: Duration::from_secs(BITS_PER_CHARACTER.into()) / baud.max(1) }
     }
 
-    /// Longest time for the reply to `request`.
+    /// Returns the max time for the reply to `request`.
     pub(super) fn reply_wait(self, request: &Request) -> Duration {
         LATENCY + self.exchange_of(request)
     }
 
-    /// The same while the antenna moves.
+    /// Returns the max time for the reply to `request` while the antenna moves.
     pub(super) fn prompt(self, request: &Request) -> Duration {
         PROMPT + self.exchange_of(request)
     }
 
-    /// Longest time for any reply in normal operation.
+    /// Returns the max time for any reply in normal operation.
     pub(super) fn longest_prompt(self) -> Duration {
         PROMPT + self.exchange()
     }
 
-    /// Longest time for any reply.
+    /// Returns the max time for any reply.
     pub(super) fn longest_wait(self) -> Duration {
         LATENCY + self.exchange()
     }
 
-    /// Time for a halt, the question after it, and their replies.
+    /// Returns the time for a halt, the question after it, and their replies.
     pub(super) fn halt_wait(self) -> Duration {
         LATENCY.max((self.exchange() + GAP) * 2)
     }
 
-    /// Time of a command and its reply on the wire.
+    /// Returns the time of a command and its reply on the wire.
     fn exchange_of(self, request: &Request) -> Duration {
         self.time_of(request.to_bytes(Address::FACTORY).len() + request.command().reply_bytes())
     }
 
-    /// Time of the longest command and the longest reply on the wire.
+    /// Returns the time of the longest command and the longest reply on the wire.
     fn exchange(self) -> Duration {
         self.time_of(MAX_COMMAND_BYTES + MAX_FRAME_BYTES)
     }
@@ -69,7 +68,7 @@ impl Line {
         self.character * u32::try_from(characters).unwrap_or(u32::MAX)
     }
 
-    /// After this long without a character, no more of a frame will come.
+    /// Returns the silence after which no more of a frame will come.
     pub(super) fn silence(self) -> Duration {
         SILENCE.max(self.character * SILENT_CHARACTERS)
     }
@@ -84,7 +83,7 @@ mod tests {
     fn slow_lines_are_waited_for_longer() {
         let status = Request::Query(Query::Status);
         let wait = |baud| Line::new(baud).reply_wait(&status).as_millis();
-        // 43 characters of ten bits, and a second.
+        // The wait is 43 characters of ten bits, and a second.
         assert_eq!([wait(9600), wait(300)], [1044, 2433]);
         assert_eq!(Line::new(9600).halt_wait(), Duration::from_secs(1));
         assert_eq!(Line::new(300).halt_wait().as_millis(), 3699);

@@ -11,7 +11,7 @@ use crate::{
     },
 };
 
-/// Meaning of a command to the unit at `address`, whose counts are angles by `axes`.
+/// Returns the meaning of a command to the unit at `address`. `axes` converts counts to angles.
 pub(super) fn of_sent(bytes: &[u8], address: Address, axes: &Axes) -> Option<Meaning> {
     let mut decoder = Decoder::new(address);
     decoder.push(bytes);
@@ -97,7 +97,7 @@ const fn polarization(step: PolarizationMove) -> &'static str {
     }
 }
 
-/// Meaning of a reply.
+/// Returns the meaning of a reply.
 pub(super) fn of_reply(frame: &Frame) -> Option<Meaning> {
     let (tone, text) = match Reply::parse(frame).ok()? {
         Reply::DeviceType(_) => (Tone::Plain, "Type of the unit"),

@@ -1,8 +1,8 @@
-//! The list of stored satellites, read entry by entry.
+//! The list of stored satellites, which Azel reads entry by entry.
 
 use crate::protocol::rc2000c::{NameEntry, NameIndex, SatelliteName};
 
-/// The list, as far as it was read on this link.
+/// The entries of the list that Azel has read on this link.
 #[derive(Debug, Default)]
 pub(super) struct SatelliteNames {
     read: Vec<SatelliteName>,
@@ -11,7 +11,7 @@ pub(super) struct SatelliteNames {
 }
 
 impl SatelliteNames {
-    /// The next entry to ask for; `None` when all were read.
+    /// Returns the next entry to ask for; `None` once all entries were read.
     pub(super) fn next(&self) -> Option<NameIndex> {
         if self.is_complete() {
             return None;
@@ -19,7 +19,7 @@ impl SatelliteNames {
         NameIndex::new(u8::try_from(self.read.len() + 1).ok()?).ok()
     }
 
-    /// Takes an entry. A unit that answers with another entry has no list that can be read.
+    /// Takes an entry. If the unit answers with another entry, its list cannot be read and ends.
     pub(super) fn take(&mut self, entry: &NameEntry) {
         if self.next().is_some_and(|next| next.number() == entry.index) {
             self.read.push(entry.name);
@@ -29,7 +29,7 @@ impl SatelliteNames {
         }
     }
 
-    /// The list ends here: the unit says so, or does not answer.
+    /// Ends the list here, because the unit says so or does not answer.
     pub(super) fn end(&mut self) {
         self.count = u8::try_from(self.read.len()).ok();
     }
@@ -42,7 +42,7 @@ impl SatelliteNames {
         &self.read
     }
 
-    /// The stored name that the operator means, regardless of case and surrounding blanks.
+    /// Returns the stored name that the operator means, regardless of case and surrounding blanks.
     pub(super) fn find(&self, typed: &str) -> Option<SatelliteName> {
         let is_meant =
             |name: &&SatelliteName| name.as_str().trim().eq_ignore_ascii_case(typed.trim());

@@ -1,12 +1,12 @@
-//! The last statuses: an axis that runs out after a stop, or moves without a command, shows
-//! only by its numbers.
+//! The last statuses. An axis that coasts after a stop, or moves without a command, shows only in
+//! its positions.
 
 use std::{collections::VecDeque, time::Duration};
 
 use crate::{clock::Instant, protocol::rc2000c::Status};
 
-/// Time in which even the slowest axis shows another number. Replies to commands may follow
-/// one another much faster.
+/// Time in which even the slowest axis shows another number. Replies to commands may follow each
+/// other much faster.
 const LONG_ENOUGH: Duration = Duration::from_millis(250);
 
 /// The last statuses with their times, oldest first.
@@ -15,14 +15,14 @@ pub(super) struct Past(VecDeque<(Instant, Status)>);
 
 impl Past {
     pub(super) fn push(&mut self, status: Status, now: Instant) {
-        // The second one is old enough, so nobody needs the first any more.
+        // The second status is old enough, so the first is no longer needed.
         while self.0.get(1).is_some_and(|(instant, _)| is_old(*instant, now)) {
             self.0.pop_front();
         }
         self.0.push_back((now, status));
     }
 
-    /// The newest status that is old enough to compare with, or else the oldest.
+    /// Returns the newest status that is old enough to compare with, or else the oldest.
     pub(super) fn before(&self, now: Instant) -> Option<&Status> {
         let old = self.0.iter().rev().find(|(instant, _)| is_old(*instant, now));
         old.or(self.0.front()).map(|(_, status)| status)

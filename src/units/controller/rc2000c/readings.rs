@@ -10,7 +10,7 @@ use crate::{
     },
 };
 
-/// Maximum level of the receiver.
+/// Max signal level of the receiver.
 const MAX_AGC: f64 = 1023.0;
 
 pub(super) fn readings(

@@ -1,4 +1,4 @@
-//! Records the link, frame by frame.
+//! Recording of the link, frame by frame.
 
 use super::{Rc2000c, exchange::Purpose, meaning};
 use crate::{
@@ -7,7 +7,7 @@ use crate::{
     protocol::rc2000c::{Command, Frame, FrameError, MAX_FRAME_BYTES},
 };
 
-/// Bytes without a frame are recorded in lines of this length.
+/// Max length of a line of the wire log for bytes without a frame, bytes.
 const MAX_NOISE: usize = 4 * MAX_FRAME_BYTES;
 
 impl Rc2000c {
@@ -22,20 +22,20 @@ impl Rc2000c {
         self.wire.push(WireLine { meaning, is_poll, ..line });
     }
 
-    /// Records bytes that were received and are not read yet.
+    /// Keeps received bytes until Azel records them.
     pub(super) fn hear(&mut self, bytes: &[u8], now: Moment) {
         self.heard_at = Some(now.steady);
         self.heard.extend_from_slice(bytes);
     }
 
-    /// Cuts endless noise into pieces.
+    /// Records a long run of noise in pieces.
     pub(super) fn limit_noise(&mut self, now: Moment) {
         if self.heard.len() > MAX_NOISE {
             self.record_noise(Finding::NoHeader, now);
         }
     }
 
-    /// Records a frame; the bytes before it in the stream were none.
+    /// Records a frame, and before it the preceding bytes as noise.
     pub(super) fn record_frame(&mut self, frame: &Frame, now: Moment) {
         let bytes = frame.to_bytes();
         let place = self.heard.windows(bytes.len()).position(|window| window == bytes);
@@ -68,7 +68,7 @@ impl Rc2000c {
         self.record_noise(finding, now);
     }
 
-    /// Records bytes that made no frame, once the line is quiet.
+    /// Records the pending bytes as noise with `finding`.
     pub(super) fn record_noise(&mut self, finding: Finding, now: Moment) {
         let noise = std::mem::take(&mut self.heard);
         if !noise.is_empty() {

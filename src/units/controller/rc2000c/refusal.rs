@@ -1,5 +1,5 @@
-//! Why the unit has refused a command. It does not say; its known state and the causes in its
-//! manual make a sentence.
+//! The reason why the unit has refused a command. The unit reports none, so Azel infers it from the
+//! last status and the causes in the manual.
 
 use crate::protocol::rc2000c::{
     AutoMove, DriveReset, Motion, PolarizationDevice, PolarizationMove, Position, Request, Setting,
@@ -8,7 +8,7 @@ use crate::protocol::rc2000c::{
 
 pub(super) const AUTOMATIC: &str = "automatic polarization is on";
 
-/// The likely reason, by the last status.
+/// Returns the likely reason according to the last status.
 pub(super) fn likely_reason(request: &Request, status: Option<&Status>) -> String {
     let Some(status) = status else { return "the unit does not say why".to_owned() };
     let is_automatic = status.polarization_mode.is_some_and(|mode| mode.is_automatic);
@@ -39,7 +39,7 @@ pub(super) fn likely_reason(request: &Request, status: Option<&Status>) -> Strin
     reason.to_owned()
 }
 
-/// Returns `true` if the track mode is on. Unknown counts as on.
+/// Returns `true` if the track mode is on. An unknown mode counts as on.
 pub(super) fn is_tracking(status: &Status) -> bool {
     status.track.is_some_and(|track| track.submode.is_active())
 }

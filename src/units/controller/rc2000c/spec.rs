@@ -15,7 +15,7 @@ use crate::{
 const SLOW: JogSpeed = JogSpeed { name: "Slow", share: 0.25 };
 pub(super) const FAST: JogSpeed = JogSpeed { name: "Fast", share: 1.0 };
 
-/// On the factory's bus address, not calibrated.
+/// Description of an RC2000C on the factory's bus address, not calibrated.
 pub static SPEC: ControllerSpec = ControllerSpec {
     key: "rc2000c",
     name: "Research Concepts RC2000C",
@@ -55,7 +55,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
     open: |antenna| Box::new(Rc2000c::new(antenna)),
 };
 
-/// All units of this make have the same abilities.
+/// The only variant: all units of this make have the same abilities.
 pub static VARIANT: Variant = Variant {
     capabilities: Capabilities {
         axes: ["Az", "El"],
@@ -70,7 +70,8 @@ pub static VARIANT: Variant = Variant {
         steps: false,
         ends_jogs: true,
         waits_for_word: true,
-        // A count is some hundredths of a degree; slow speed is a few tenths.
+        // A count is some hundredths of a degree; the slow speed is a few tenths of a degree a
+        // second.
         standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.3, overrun_s: 0.6 },
         effect: Effect { shows_after_s: 5.0, ignores_deg: 0.0 },
         stop_note: None,
@@ -81,8 +82,8 @@ pub static VARIANT: Variant = Variant {
     actions: actions::ACTIONS,
 };
 
-/// Bits a second of the line. A serial server has its own setting; then the value only tells
-/// how long replies take.
+/// Line speed, bits a second. A serial server has its own setting; Azel then uses the value only to
+/// compute how long replies take.
 pub static BAUD: Setting =
     Setting::new(Field::edit(Key::choice("baud", BAUDS), "Line speed, baud"), || {
         Value::Choice(9600)
@@ -99,7 +100,7 @@ pub static BUS_ADDRESS: Setting =
 
 const CALIBRATION: Table = Table { key: "calibration", title: "Calibration" };
 
-/// Measured points of the azimuth.
+/// Measured points of the azimuth, counts and degrees.
 pub static AZIMUTH_POINTS: Setting =
     Setting::new(Field::edit(Key::points("azimuth"), "Azimuth counts"), || {
         Value::Points(Vec::new())
@@ -107,7 +108,7 @@ pub static AZIMUTH_POINTS: Setting =
     .in_table(CALIBRATION)
     .noted(not_calibrated);
 
-/// Measured points of the elevation.
+/// Measured points of the elevation, counts and degrees.
 pub static ELEVATION_POINTS: Setting =
     Setting::new(Field::edit(Key::points("elevation"), "Elevation counts"), || {
         Value::Points(Vec::new())
@@ -120,9 +121,9 @@ fn not_calibrated(value: &Value) -> Option<&'static str> {
     is_empty.then_some("Not calibrated: the antenna is shown in counts and goes to no angle.")
 }
 
-/// Conversion of the counts of both position sensors: points that the operator has measured,
-/// with a straight line between and beyond them. Two points or more of each, or none while it
-/// is not calibrated.
+/// Conversion of the counts of both position sensors: points that the operator has measured, with a
+/// straight line between and beyond them. Each axis has two or more points, or none while it is not
+/// calibrated.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Calibration {
     pub azimuth: Vec<CountPoint>,
@@ -138,7 +139,8 @@ impl Calibration {
         }
     }
 
-    /// Puts it into the settings of `connection`. The error says why it does not fit.
+    /// Writes the calibration to the settings of `connection`. Returns an error with the reason if
+    /// it does not fit.
     pub fn put_into(self, connection: &mut Connection) -> Result<(), Unfit> {
         connection.put(&AZIMUTH_POINTS, self.azimuth)?;
         connection.put(&ELEVATION_POINTS, self.elevation)
@@ -146,7 +148,7 @@ impl Calibration {
 }
 
 impl Antenna {
-    /// An RC2000C at `address` on the factory's bus address, not calibrated, with default
+    /// Returns an RC2000C at `address` on the factory's bus address, not calibrated, with default
     /// figures.
     pub fn rc2000c(name: &str, address: &str) -> Self {
         SPEC.antenna(name, address)

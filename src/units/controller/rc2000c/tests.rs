@@ -12,14 +12,14 @@ const STATUS: &[u8] = b"\x02\x32\x31\x03\x02";
 const STOP: &[u8] = b"\x02\x32\x33XS0000\x03\x0b";
 const OFFLINE: &[u8] = b"\x06\x32\x33F\x03\x42";
 
-/// A unit on the desk, and the time.
+/// A unit on the desk, and the current time.
 struct Bench {
     unit: Rc2000c,
     now: Moment,
 }
 
 impl Bench {
-    /// Asked for its type, not answered yet.
+    /// Returns a unit that was asked for its type and has not answered yet.
     fn new() -> Self {
         let antenna = Antenna::rc2000c("Dish", "/dev/ttyUSB0");
         let unit = Rc2000c::new(&antenna);
@@ -31,7 +31,7 @@ impl Bench {
         bench
     }
 
-    /// Read once: idle, with an empty list of satellites.
+    /// Returns an idle unit that was read once, with an empty list of satellites.
     fn idle() -> Self {
         let mut bench = Self::new();
         bench.hear(b"\x06\x32\x302KCA14\x03\x79");

@@ -7,14 +7,14 @@ use crate::device::{
     settings::{Field, Key},
 };
 
-/// Key of the action that sends the rotator that is not the antenna's.
+/// Key of the action that turns the rotator that does not belong to the antenna.
 pub const OTHER: &str = "other";
 /// Key of the action that allows a jog outside the limits.
 pub const RESCUE: &str = "rescue";
 
 /// Heading for [`OTHER`], whole degrees.
 pub(super) const DIRECTION: Key<i64> = Key::integer("direction_deg", 0, 360);
-/// How long a rescue stays armed, unless the operator's STOP comes first.
+/// Time for which a rescue stays armed, unless the operator's STOP ends it earlier.
 pub(super) const ARMED: Duration = Duration::from_mins(1);
 
 pub(super) const SEND_OTHER: Action = Action {

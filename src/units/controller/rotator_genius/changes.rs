@@ -1,4 +1,4 @@
-//! Writes a configuration and proves it: reads, sends once, reads back.
+//! Verified writing of a configuration: Azel reads it, sends it once and reads it back.
 
 use super::{
     Genius,
@@ -18,7 +18,7 @@ enum NextChange {
 }
 
 impl Genius {
-    /// The next request of the changes; ends those that have none.
+    /// Returns the next request of the pending changes; ends the changes that have none.
     pub(super) fn write_request(&mut self, now: Moment) -> Option<(Request, Purpose)> {
         loop {
             self.changes.begin(&mut self.state, now);
@@ -36,7 +36,7 @@ impl Genius {
         match settings_write.step() {
             WriteAction::Look | WriteAction::ReadBack => NextChange::Send(Request::Read),
             WriteAction::Done => NextChange::Over(settings_write.result()),
-            // A unit that is being configured lets go of what it turns.
+            // Configuring the unit makes it release the rotators that it turns.
             WriteAction::Send if self.moving() || self.motion_waits() => {
                 NextChange::Over(Err(WriteError::Moving))
             }
@@ -53,7 +53,7 @@ impl Genius {
         }
     }
 
-    /// Takes a status that a change waits for.
+    /// Takes a status that a pending change needs.
     pub(super) fn change_read(&mut self, now: Moment) {
         let Some(status) = &self.status else { return };
         self.changes.advance(&mut self.state, now, |settings_write| {
@@ -73,7 +73,7 @@ impl Genius {
         });
     }
 
-    /// The unit has answered the command of a change.
+    /// Handles the unit's answer to the command of a change.
     pub(super) fn change_judged(&mut self, is_accepted: bool, now: Moment) {
         self.changes.advance(&mut self.state, now, |settings_write| {
             if is_accepted {
@@ -84,7 +84,7 @@ impl Genius {
         });
     }
 
-    /// The unit has not answered.
+    /// Handles a missing answer to the command of a change.
     pub(super) fn change_unanswered(&mut self, now: Moment) {
         self.changes.advance(&mut self.state, now, SettingsWrite::unanswered);
     }

@@ -80,7 +80,7 @@ impl Device for Genius {
         let (request, purpose) = self.next_request(now)?;
         self.drain_until = None;
         if request == Request::Read {
-            // A session may ask for a position sooner before the answer comes.
+            // A session may request an earlier position before the answer comes.
             self.next_poll = Some(now.steady + self.period(now.steady));
         }
         let bytes = request.to_bytes();
@@ -155,7 +155,8 @@ impl Device for Genius {
 }
 
 impl Controller for Genius {
-    /// Its other actions turn a rotator that is not this antenna's.
+    /// Returns `Nowhere`, because no action of this make turns an axis of this antenna to a
+    /// direction.
     fn lead_of(&self, _: &Act) -> Lead {
         Lead::Nowhere
     }
@@ -177,7 +178,7 @@ impl Controller for Genius {
     }
 
     fn start(&mut self, motion: Motion) {
-        // A newer request replaces one that has not gone out yet.
+        // A newer request replaces a request that was not sent yet.
         self.orders.retain(|order| matches!(order.origin, MotionRequest::Action(_)));
         match self.orders_for(motion) {
             Ok(orders) => self.orders.extend(orders),

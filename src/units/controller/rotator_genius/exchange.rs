@@ -10,7 +10,7 @@ use crate::{
     },
 };
 
-/// Bytes are decoded in pieces of this size: less than the decoder can hold.
+/// Size of the pieces in which Azel decodes bytes: less than the decoder's capacity.
 const PIECE: usize = 1024;
 
 /// Reason for a request.
@@ -20,11 +20,11 @@ pub(super) enum Purpose {
     Poll,
     /// A question of the operator.
     Asked,
-    /// Starts a motion.
+    /// A command that starts a motion.
     Motion(MotionRequest),
     /// A step of changing the configuration.
     WriteSettings,
-    /// Overtaken by a halt: its reply does not matter.
+    /// A request that a halt has overtaken: its reply does not matter.
     Disowned,
 }
 
@@ -53,7 +53,6 @@ impl Outstanding {
         self.request == Request::Read
     }
 
-    /// Returns `true` for a poll.
     pub(super) fn is_poll(&self) -> bool {
         self.purpose == Purpose::Poll
     }
@@ -62,14 +61,16 @@ impl Outstanding {
         self.clock.sent.steady
     }
 
-    /// A halt has overtaken it. Reading moves nothing.
+    /// Marks a motion that a halt has overtaken. A question keeps its purpose, because it moves
+    /// nothing.
     pub(super) fn disown(&mut self) {
         if self.is_motion() {
             self.purpose = Purpose::Disowned;
         }
     }
 
-    /// Returns `true` if `acknowledgement` acknowledges it; acknowledgements never name the rotator.
+    /// Returns `true` if `acknowledgement` matches the request; acknowledgements never name the
+    /// rotator.
     pub(super) fn is_acknowledged_by(&self, acknowledgement: Acknowledgement) -> bool {
         match (&self.request, acknowledgement) {
             (
@@ -91,12 +92,12 @@ impl Outstanding {
 }
 
 impl Genius {
-    /// Takes bytes of the stream.
+    /// Takes received bytes.
     pub(super) fn take_bytes(&mut self, bytes: &[u8], now: Moment) {
         for piece in bytes.chunks(PIECE) {
             self.decoder.push(piece);
             self.unfinished.extend(piece);
-            // One by one, because each may change what is expected next.
+            // Azel takes the replies one by one, because each may change the expected next reply.
             while let Some(received) = self.decoder.next() {
                 self.take(received, now);
             }
@@ -104,7 +105,7 @@ impl Genius {
         self.quiet_at = (!self.unfinished.is_empty()).then(|| now.steady + QUIET);
     }
 
-    /// Nothing has come for a while: gives up an unfinished reply.
+    /// Gives up an unfinished reply after a silence.
     pub(super) fn end_unfinished(&mut self, now: Moment) {
         if self.quiet_at.take_if(|quiet_at| now.steady >= *quiet_at).is_some() {
             for received in self.decoder.idle() {
@@ -146,7 +147,7 @@ impl Genius {
         }
     }
 
-    /// Counts bytes that are no reply.
+    /// Counts bytes that form no reply.
     pub(super) fn take_noise(&mut self, now: Moment) {
         self.state.traffic.damaged += 1;
         self.state.traffic.last_unreadable = Some(now.steady);
@@ -157,9 +158,8 @@ impl Genius {
         self.state.traffic.last_reply = Some(now.steady);
     }
 
-    /// The unit answers each question at most once, and its answers come in the order in which
-    /// they were made. So each is at least as young as the oldest question that may still be
-    /// unanswered.
+    /// Takes a status. The unit answers each question at most once and in order. A status is
+    /// therefore at least as young as the oldest unanswered question.
     fn take_answer(&mut self, status: Status, now: Moment) {
         let read = self.outstanding.take_if(|sent| sent.is_read());
         self.missing.extend(read.as_ref().map(Outstanding::sent));
@@ -182,8 +182,9 @@ impl Genius {
         }
     }
 
-    /// End of the pause in which Azel asks nothing, so that a surplus answer shows as such. While
-    /// the antenna moves, Azel asks on, and each answer counts as asked one question earlier.
+    /// Returns the end of the pause in which Azel asks nothing to recognise a surplus answer. While
+    /// the antenna moves and only one answer is missing, Azel continues to ask, and counts each
+    /// answer as asked one question earlier.
     pub(super) fn drains_until(&self) -> Option<Instant> {
         self.drain_until.filter(|_| !self.is_watched || self.missing.len() > 1)
     }
@@ -219,13 +220,13 @@ impl Genius {
         }
     }
 
-    /// Drops the rest of a motion: half of one is useless.
+    /// Drops the remaining commands of a motion: half of a motion is useless.
     fn forget_orders(&mut self, origin: MotionRequest) {
         self.orders.retain(|order| order.origin != origin);
     }
 
-    /// A status is asked for again; other requests never, because the status shows whether
-    /// they arrived. Returns the bytes to send at once.
+    /// Repeats a status question whose answer is missing. Azel never repeats other requests,
+    /// because the status shows whether they arrived. Returns the bytes to send immediately.
     pub(super) fn expire(&mut self, now: Moment) -> Option<Vec<u8>> {
         let is_late = self
             .outstanding
@@ -249,12 +250,12 @@ impl Genius {
             Purpose::Poll | Purpose::Asked | Purpose::Disowned => {}
         }
         self.look_soon(now);
-        // Outside the limits a motion would go on for ever after the link is gone.
+        // Outside the limits, a motion would continue forever once the link is lost.
         let is_blind_rescue = self.is_rescue_armed(now.steady) && self.moving();
         is_blind_rescue.then(|| self.stop_both(now))
     }
 
-    /// When the reply to `sent` is missing.
+    /// Returns the time from which the reply to `sent` counts as missing.
     pub(super) fn deadline(&self, sent: &Outstanding) -> Instant {
         let is_hurried = self.is_watched && sent.is_read();
         if is_hurried { sent.deadline().min(sent.sent() + PROMPT) } else { sent.deadline() }

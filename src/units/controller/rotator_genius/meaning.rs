@@ -7,7 +7,7 @@ use crate::{
     protocol::rotator_genius::{Configuration, Direction, Motion, Request, RotatorKind},
 };
 
-/// Meaning of a command; `None` if it is none of the document.
+/// Returns the meaning of a command; `None` if the document has no such command.
 pub(super) fn of_sent(bytes: &[u8]) -> Option<Meaning> {
     let text: Cow<'static, str> = match Request::parse(bytes).ok()? {
         Request::Read => "Asks for the status".into(),

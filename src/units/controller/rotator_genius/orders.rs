@@ -1,4 +1,4 @@
-//! The commands of a motion, and the objections to it.
+//! The commands of a motion, and the reasons not to send them.
 
 use super::{
     Genius,
@@ -14,11 +14,11 @@ use crate::{
     },
 };
 
-/// One command to one rotator. A motion of both axes is two of them.
+/// One command to one rotator. A motion of both axes needs two commands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct QueuedMotion {
     pub(super) request: unit::Motion,
-    /// The request it is a part of.
+    /// The request that this command belongs to.
     pub(super) origin: MotionRequest,
 }
 
@@ -39,7 +39,7 @@ impl Genius {
         self.status.as_ref().map(|status| Roles::new(self.rotators, status))
     }
 
-    /// The make's own reason not to send `origin`.
+    /// Returns the make's own reason not to send `origin`.
     pub(super) fn objection_to(&self, origin: &MotionRequest, now: Moment) -> Option<&'static str> {
         let Some(status) = &self.status else { return Some(NOT_READ) };
         let Roles { axes: [first, second], is_clear, is_pair } = Roles::new(self.rotators, status);
@@ -78,7 +78,8 @@ impl Genius {
         }
     }
 
-    /// As last seen, or as a command under way may change it.
+    /// Returns `true` if the rotator turned in the last status, or if a pending command may turn
+    /// it.
     fn turns(&self, number: RotatorNumber) -> bool {
         let of_axis = self.roles().zip(self.state.measured).and_then(|(roles, measured)| {
             let mut axes = roles.axes.into_iter().zip(measured.axes);
@@ -88,7 +89,7 @@ impl Genius {
         waits || of_axis.is_some_and(|motion| motion != AxisMotion::Still)
     }
 
-    /// The commands of `motion`, or the reason why there are none.
+    /// Returns the commands of `motion`, or the reason why there are none.
     pub(super) fn orders_for(&self, motion: Motion) -> Result<Vec<QueuedMotion>, &'static str> {
         let Roles { axes: [first, second], is_pair, .. } = self.roles().ok_or(NOT_READ)?;
         let requests = match motion {
@@ -127,7 +128,7 @@ impl Genius {
         Ok(QueuedMotion { request, origin: MotionRequest::Action(act.action) })
     }
 
-    /// Meaning of an `F`, as far as the last status shows: the unit never says.
+    /// Returns the likely meaning of an `F` according to the last status: the unit gives no reason.
     pub(super) fn refusal(&self, request: unit::Motion) -> String {
         let Some(status) = &self.status else { return "F".to_owned() };
         let number = rotator_of(request);
@@ -162,29 +163,29 @@ fn without_position(rotator: &Rotator) -> Option<&'static str> {
     }
 }
 
-/// A position as it is sent; any other motion unchanged.
+/// Returns a position in the whole degrees that Azel sends; any other motion unchanged.
 pub(super) fn in_whole_degrees(motion: Motion) -> Motion {
     let Motion::Position { azimuth, elevation } = motion else { return motion };
     let whole = |degrees: WholeDegrees| Angle::from_degrees(f64::from(degrees.degrees()));
     Motion::Position {
-        // One that cannot be sent is refused with the requested values.
+        // Azel refuses a position that cannot be sent, and shows its requested values.
         azimuth: azimuth.map(|azimuth| whole_azimuth(azimuth).map_or(azimuth, whole)),
         elevation: elevation.map(|elevation| whole(whole_elevation(elevation))),
     }
 }
 
-/// The nearest whole degree. 360 is sent only if it was requested as such: on a mount with its
-/// stop in the north it may be a whole turn away from 359.6.
+/// Returns the nearest whole degree. The result is 360 only if 360 was requested. On a mount with
+/// its stop in the north, 360 may be a whole turn away from 359.6.
 fn whole_azimuth(azimuth: Angle) -> Option<WholeDegrees> {
     let degrees = azimuth.degrees();
-    // Angles come from decimal degrees: allow for rounding.
+    // Angles come from decimal degrees, so the test allows for rounding.
     let degrees = if (-1e-9..0.0).contains(&degrees) { 0.0 } else { degrees };
     let nearest = WholeDegrees::nearest(degrees).ok()?;
     let is_rounded_to_north = nearest == WholeDegrees::MAX && degrees < 360.0 - 1e-9;
     Some(if is_rounded_to_north { WholeDegrees::saturating(359) } else { nearest })
 }
 
-/// The nearest whole degree from horizon to horizon over the zenith.
+/// Returns the nearest whole degree of an elevation, 0 to 180 over the zenith.
 fn whole_elevation(elevation: Angle) -> WholeDegrees {
     WholeDegrees::saturating(elevation.degrees().clamp(0.0, 180.0).round() as u16)
 }

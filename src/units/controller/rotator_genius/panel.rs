@@ -18,7 +18,7 @@ const NAMES: [RotatorNames; 2] = [
     RotatorNames { sensor: "Sensor of rotator 2", limits: "Limits of rotator 2" },
 ];
 
-/// Faults and warnings of the rotators that turn this antenna.
+/// Returns faults and warnings of the rotators that turn this antenna.
 pub(super) fn checks(status: &Status, roles: Roles) -> Vec<Check> {
     let kinds = Check::new(
         "Kinds of the rotators",
@@ -64,7 +64,7 @@ pub(super) fn checks(status: &Status, roles: Roles) -> Vec<Check> {
     [kinds, panic].into_iter().chain(of_rotators).collect()
 }
 
-/// The other readings, rotator by rotator.
+/// Returns the other readings, rotator by rotator.
 pub(super) fn readings(
     status: &Status,
     roles: Roles,
@@ -90,7 +90,7 @@ fn of_rotator(status: &Status, roles: Roles, number: RotatorNumber) -> Vec<Readi
         RotatorKind::Azimuth => "azimuth",
         RotatorKind::Elevation => "elevation",
     };
-    // A rotator is often named after its axis.
+    // Operators often name a rotator after its axis.
     let name = match rotator.name.as_str() {
         "" => format!("no name, {kind}"),
         name if name.eq_ignore_ascii_case(kind) => kind.to_owned(),
@@ -98,7 +98,7 @@ fn of_rotator(status: &Status, roles: Roles, number: RotatorNumber) -> Vec<Readi
     };
     let heading = match &rotator.position {
         Ok(angle) => Reading::new(label("Heading"), format!("{angle}°{}", turning(rotator.moving))),
-        // Usual for a unit with one rotator.
+        // A unit with one rotator usually has no heading for the other.
         Err(problem) => {
             let tone = if roles.is_ours(number) { Tone::Bad } else { Tone::Plain };
             Reading::new(label("Heading"), problem.to_string()).in_tone(tone)
@@ -145,7 +145,7 @@ fn degrees(angle: Option<WholeDegrees>) -> String {
     angle.map_or("?".to_owned(), |angle| format!("{angle}°"))
 }
 
-/// The part of the way to its target that a rotator has gone, 0 to 1.
+/// Returns the part of the way to its target that a rotator has gone, 0 to 1.
 fn progress(rotator: &Rotator) -> Option<f64> {
     let degrees = |angle: WholeDegrees| f64::from(angle.degrees());
     let (start, target) = (degrees(rotator.start?), degrees(rotator.target?));
@@ -158,7 +158,7 @@ fn progress(rotator: &Rotator) -> Option<f64> {
     if whole == 0.0 {
         return Some(1.0);
     }
-    // More than the whole way is either a little past the target or a little before the start.
+    // A part longer than the whole way is a little past the target or a little before the start.
     let is_before = part > whole + (360.0 - whole) / 2.0;
     Some(if is_before { 0.0 } else { (part / whole).min(1.0) })
 }

@@ -1,4 +1,4 @@
-//! Records the link: commands and replies as the decoder cuts them, each with its meaning.
+//! Recording of the link: commands and replies as the decoder splits them, each with its meaning.
 
 use super::{Genius, REPLY, exchange::Outstanding, meaning};
 use crate::{
@@ -15,7 +15,7 @@ impl Genius {
         self.wire.push(WireLine { meaning, is_poll, ..line(Direction::Sent, bytes, now) });
     }
 
-    /// Records something that was received and not acted upon yet.
+    /// Records a reply or noise before Azel acts on it.
     pub(super) fn record_received(&mut self, received: &Received, now: Moment) {
         let sent_at = |is_it: &dyn Fn(&Outstanding) -> bool| {
             self.outstanding.as_ref().filter(|sent| is_it(sent)).map(Outstanding::sent)
@@ -26,7 +26,7 @@ impl Genius {
                 let line = line(Direction::Received, bytes, now);
                 return self.wire.push(WireLine { finding: Finding::NoHeader, ..line });
             }
-            // Their bytes come as noise.
+            // The decoder also returns the bytes of these two as noise.
             Received::LayoutChanged(_) | Received::OtherProtocol => return,
             Received::Reply(Reply::Status(_)) => {
                 let is_poll = self.outstanding.as_ref().is_some_and(Outstanding::is_poll);
@@ -54,7 +54,7 @@ impl Genius {
         self.wire.push(WireLine { meaning, reply_after, is_poll, ..line });
     }
 
-    /// Records the rest of a reply whose link is gone.
+    /// Records the rest of a reply that the lost link has cut off.
     pub(super) fn record_unfinished(&mut self, now: Moment) {
         let bytes: Vec<u8> = self.unfinished.drain(..).collect();
         if !bytes.is_empty() {

@@ -3,21 +3,21 @@
 use super::Rotators;
 use crate::protocol::rotator_genius::{Rotator, RotatorKind, RotatorNumber, Status, WholeDegrees};
 
-/// Just below a whole turn, degrees: for an azimuth that is not reported as 360.
+/// Angle just below a whole turn, degrees: the upper end of an azimuth that the unit never reports
+/// as 360.
 const BELOW_TURN_DEG: f64 = 359.999;
 
-/// Roles of the two rotators.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Roles {
     pub(super) axes: [RotatorNumber; 2],
     pub(super) is_pair: bool,
-    /// The kinds that the unit reports fit the antenna. Otherwise no reading can be taken for
-    /// its azimuth or elevation.
+    /// `true` if the kinds that the unit reports fit the antenna. Otherwise Azel uses no reading as
+    /// azimuth or elevation.
     pub(super) is_clear: bool,
 }
 
 impl Roles {
-    /// With a pair, the kinds decide, whatever the numbers.
+    /// Returns the roles of the rotators. In a pair, the reported kinds decide, not the numbers.
     pub(super) fn new(rotators: Rotators, status: &Status) -> Self {
         let [one, two] = status.rotators.each_ref().map(|rotator| rotator.kind);
         let (first, second) = (RotatorNumber::One, RotatorNumber::Two);
@@ -45,7 +45,8 @@ impl Roles {
         self.is_pair || self.axes.first() == Some(&number)
     }
 
-    /// Both ends of each axis of the antenna by the limits of its rotator, degrees.
+    /// Returns both ends of each axis of the antenna according to the limits of its rotator,
+    /// degrees.
     pub(super) fn travel_deg(self, status: &Status) -> [Option<(f64, f64)>; 2] {
         self.axes.map(|number| {
             let is_axis = self.is_clear && self.is_ours(number);
@@ -63,14 +64,16 @@ impl Roles {
         let (Some(ccw), Some(cw)) = (rotator.limit_ccw, rotator.limit_cw) else { return true };
         let (ccw, cw) = (ccw.degrees(), cw.degrees());
         let ends_at_north = (ccw == 0 && cw >= 359) || (cw == 0 && ccw >= 359);
-        // Inside both arcs between the limits, a position does not tell which one is meant.
+        // The limits span two arcs. A position between them that is inside the limits rules out the
+        // arc across north.
         let is_between =
             rotator.position.is_ok_and(|position| (ccw..=cw).contains(&position.degrees()));
         let is_ruled_out = is_between && rotator.is_outside_limits == Some(false);
         !ends_at_north && !is_ruled_out
     }
 
-    /// Limits of the azimuth rotator, degrees. One that may be beyond a limit goes back across it.
+    /// Returns the limits of the azimuth rotator, degrees; `None` while the rotator may be beyond a
+    /// limit, because it has to return across that limit.
     pub(super) fn azimuth_limits_deg(self, status: &Status) -> [Option<f64>; 2] {
         let is_inside = |rotator: &&Rotator| rotator.is_outside_limits == Some(false);
         let Some(rotator) = self.azimuth_rotator(status).filter(is_inside) else {
@@ -85,8 +88,8 @@ impl Roles {
         rotators.find(|rotator| rotator.kind == RotatorKind::Azimuth)
     }
 
-    /// Position of a rotator as its axis counts, degrees. An elevation a little below the
-    /// horizon is reported as almost a whole turn.
+    /// Returns the position of a rotator on the scale of its axis, degrees. The unit reports an
+    /// elevation a little below the horizon as almost a whole turn.
     pub(super) fn axis_deg(rotator: &Rotator) -> Option<f64> {
         rotator.position.ok().map(|position| axis_deg(rotator.kind, position))
     }
@@ -98,15 +101,16 @@ fn axis_deg(kind: RotatorKind, position: WholeDegrees) -> f64 {
     if is_below { angle_deg - 360.0 } else { angle_deg }
 }
 
-/// The direction of the arc between its limits is uncertain. So the only information about an
-/// azimuth is whether it has a place for 360 beside that for 0.
+/// Returns the upper end of an azimuth, degrees. The direction of the arc between the limits is
+/// uncertain, so the limits only show whether the azimuth has 360 in addition to 0.
 fn highest_azimuth_deg(rotator: &Rotator) -> f64 {
     let highest = WholeDegrees::MAX;
     let is_end = [rotator.limit_cw, rotator.limit_ccw].contains(&Some(highest));
     if is_end { f64::from(highest.degrees()) } else { BELOW_TURN_DEG }
 }
 
-/// An elevation never turns by more than half a turn, whichever limit is which.
+/// Returns both ends of an elevation, degrees. An elevation never turns by more than half a turn,
+/// so the order of its limits does not matter.
 fn elevation_ends_deg(rotator: &Rotator) -> Option<(f64, f64)> {
     let [one, other] = [rotator.limit_cw?, rotator.limit_ccw?];
     let [one_deg, other_deg] = [one, other].map(|limit| axis_deg(rotator.kind, limit));
@@ -118,7 +122,7 @@ mod tests {
     use super::*;
     use crate::protocol::rotator_genius::{Decoder, Received, Reply};
 
-    /// For two rotators with these limits, clockwise and counter-clockwise.
+    /// Returns the travel of two rotators with these limits, clockwise and counter-clockwise.
     fn travel_deg(azimuth: [u16; 2], elevation: [u16; 2]) -> [Option<(f64, f64)>; 2] {
         let rotator = |[cw, ccw]: [u16; 2], kind| format!("  0{cw:3}{ccw:3}{kind}0   0999999\0");
         let mut decoder = Decoder::new();

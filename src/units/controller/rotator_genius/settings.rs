@@ -1,9 +1,9 @@
 //! The configuration of the rotators that the unit stores (section 1.1 of its document), one
 //! group for each.
 //!
-//! A configuration always goes out as a whole, and the unit does not report all of it: the
-//! stop offset is never read, and has nothing to do with the "Offset" of a status. A status
-//! has names of 12 characters, a configuration of 10.
+//! Azel always sends a whole configuration, but the unit does not report all of it. The stop offset
+//! cannot be read, and differs from the "Offset" of a status. A status has names of 12 characters,
+//! a configuration of 10.
 
 use crate::{
     device::settings::{Field, Group, Key, Unfit, Values, WriteError},
@@ -62,7 +62,7 @@ fn check_name(text: &str) -> Result<(), Unfit> {
     RotatorName::new(text).map(drop).map_err(|problem| Unfit::Text(problem.to_string()))
 }
 
-/// The configuration of a rotator, as far as a status reports it.
+/// Returns the part of a rotator's configuration that a status reports.
 pub(super) fn values(status: &Status, number: RotatorNumber) -> Values {
     let Rotator { limit_cw, limit_ccw, kind, name, .. } = status.rotator(number);
     let limits = [(LIMIT_CW, limit_cw), (LIMIT_CCW, limit_ccw)].into_iter();
@@ -72,7 +72,7 @@ pub(super) fn values(status: &Status, number: RotatorNumber) -> Values {
     limits.chain([kind, NAME.entry(name.clone())]).collect()
 }
 
-/// The whole configuration of a rotator: `new` values over those that it holds.
+/// Returns the whole configuration of a rotator: `new` values, and the unit's values for the rest.
 pub(super) fn configuration(
     number: RotatorNumber,
     new: &Values,
@@ -92,7 +92,7 @@ pub(super) fn configuration(
     let offset = integer(&STOP_OFFSET).and_then(|offset| u8::try_from(offset).ok());
     let offset = offset.ok_or_else(|| missing(STOP_OFFSET.name))?;
     let text = NAME.get(new).or_else(|| NAME.get(unit_values)).ok_or_else(|| missing(NAME.name))?;
-    // A name that would be cut short is not sent unasked.
+    // Azel does not shorten a name without asking.
     let name = RotatorName::new(&text)
         .map_err(|problem| cannot(NAME.name, format!("{text:?} {problem}, give another one")))?;
     let limits = [limit(&LIMIT_CW)?, limit(&LIMIT_CCW)?];
@@ -100,7 +100,7 @@ pub(super) fn configuration(
         .map_err(|error| cannot(STOP_OFFSET.name, error.to_string()))
 }
 
-/// The fields in which `unit_values` differs from `sent`. All are sent, so all are compared.
+/// Returns the fields in which `unit_values` differs from `sent`. Azel sends and compares all.
 pub(super) fn differing(group: &Group, sent: &Values, unit_values: &Values) -> Vec<&'static str> {
     let differs = |field: &&Field| match (sent.get(field.key), unit_values.get(field.key)) {
         (Some(sent), Some(current)) => !field.kind.same(sent, current),

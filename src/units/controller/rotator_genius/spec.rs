@@ -14,7 +14,7 @@ use crate::{
 
 const SPEEDS: JogSpeeds = JogSpeeds::Named(&[JogSpeed { name: "Turn", share: 1.0 }]);
 
-/// Turns azimuth and elevation unless [`ROTATORS`] says otherwise.
+/// Description of a Genius that turns azimuth and elevation unless [`ROTATORS`] says otherwise.
 pub static SPEC: ControllerSpec = ControllerSpec {
     key: "genius",
     name: "4O3A Rotator Genius",
@@ -26,7 +26,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
             azimuth_from_deg: 0.0,
             azimuth_to_deg: 360.0,
             elevation_from_deg: 0.0,
-            // Over the zenith only if the operator allows it.
+            // The antenna turns over the zenith only if the operator allows it.
             elevation_to_deg: 90.0,
         },
         beam_width_deg: 20.0,
@@ -60,7 +60,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
     },
 };
 
-/// Both rotators turn the same antenna.
+/// Variant of a unit whose two rotators turn the same antenna.
 pub static PAIR: Variant = Variant {
     capabilities: Capabilities {
         axes: ["Az", "El"],
@@ -75,7 +75,7 @@ pub static PAIR: Variant = Variant {
         steps: false,
         ends_jogs: false,
         waits_for_word: false,
-        // Whole degrees; the slowest rotators it drives take two minutes a turn.
+        // Readings are whole degrees; the slowest rotators of this unit take two minutes a turn.
         standstill: Standstill { resolution_deg: 1.0, slowest_deg_s: 3.0, overrun_s: 0.8 },
         effect: Effect { shows_after_s: 5.0, ignores_deg: 10.0 },
         stop_note: Some("STOP stops both rotators."),
@@ -86,7 +86,7 @@ pub static PAIR: Variant = Variant {
     actions: &[actions::ARM_RESCUE],
 };
 
-/// One rotator turns the azimuth of the antenna, the other something else.
+/// Variant of a unit that turns the azimuth of the antenna and another device.
 pub static ALONE: Variant = Variant {
     capabilities: Capabilities {
         axes: ["Az", "Other"],
@@ -99,7 +99,7 @@ pub static ALONE: Variant = Variant {
     actions: &[actions::SEND_OTHER, actions::ARM_RESCUE],
 };
 
-/// A value of [`Rotators`].
+/// Setting with a value of [`Rotators`].
 pub static ROTATORS: Setting = Setting::new(
     Field::edit(
         Key::word(
@@ -131,7 +131,7 @@ pub enum Rotators {
 }
 
 impl Rotators {
-    /// Those of a Genius with this connection.
+    /// Returns the rotators of a Genius with this connection.
     pub fn from_connection(connection: &Connection) -> Self {
         match connection.text(&ROTATORS) {
             FIRST_WORD => Self::First,
@@ -152,7 +152,8 @@ impl From<Rotators> for Value {
 }
 
 impl Antenna {
-    /// A Rotator Genius at `address` that turns azimuth and elevation, with default figures.
+    /// Returns a Rotator Genius at `address` that turns azimuth and elevation, with default
+    /// figures.
     pub fn genius(name: &str, address: &str) -> Self {
         SPEC.antenna(name, address)
     }

@@ -1,4 +1,4 @@
-//! Maps a status to the state that all antennas share.
+//! Conversion of a status to the state that all antennas share.
 
 use super::{Genius, panel, roles::Roles, settings};
 use crate::{
@@ -9,8 +9,8 @@ use crate::{
 };
 
 impl Genius {
-    /// Takes a status. `question_time`: when the question went out that it answers; `sent`: when the
-    /// last one did.
+    /// Takes a status. `question_time` is the time of the question that it answers, `sent` the time
+    /// of the last question.
     pub(super) fn take_status(
         &mut self,
         status: Status,
@@ -30,8 +30,8 @@ impl Genius {
                     Moving::Stopped => Drive::Off,
                     Moving::Clockwise | Moving::CounterClockwise => Drive::On,
                 },
-                // The unit reports that a rotator is outside its limits, not on which side. It
-                // must not block the way back.
+                // The unit reports that a rotator is outside its limits, but not on which side. A
+                // limit flag would block the way back.
                 plus_limit: false,
                 minus_limit: false,
             }
@@ -62,7 +62,7 @@ impl Genius {
     }
 }
 
-/// The direction of the antenna, as far as its axes report it.
+/// Returns the direction of the antenna, as far as its axes report it.
 fn pointing([first, second]: [Axis; 2], is_pair: bool) -> Pointing {
     let angle = |axis: Axis| axis.angle_deg.map(Angle::from_degrees);
     Pointing::of_axes(angle(first), angle(second).filter(|_| is_pair))

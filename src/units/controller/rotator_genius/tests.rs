@@ -16,7 +16,7 @@ use crate::{
 const STATUS: &[u8] =
     b"|h2\x00173359  0A0   0999999\x00Tower         0 90  0E1   0 45  0\x00Elevation   ";
 
-/// Something that happens to a device.
+/// A step of a test script: an event at a device.
 #[derive(Debug, Clone)]
 enum ScriptStep {
     Wait(u64),
@@ -109,7 +109,7 @@ proptest! {
     }
 }
 
-/// A pair that is read once and asked again at the returned time.
+/// Returns a pair that was read once, and the time at which it is asked again.
 fn asked_again(is_watched: bool) -> (Genius, Moment) {
     let mut now = Moment { steady: Instant::now(), utc: Timestamp::UNIX_EPOCH };
     let mut unit = Genius::new(PollRates { idle_hz: 2.0, moving_hz: 4.0 }, Rotators::Pair);

@@ -1,4 +1,4 @@
-//! Motion of a rotator: what the device drives, and what its readings show.
+//! Motion of a rotator, from the device's drive state and from its readings.
 
 use std::time::Duration;
 
@@ -8,31 +8,30 @@ use crate::{
     protocol::rotator_genius::{Moving, Rotator},
 };
 
-/// A rotator that is no longer driven stands when its reading has not gone on
-/// for this long.
+/// Time without progress of the reading after which a rotator without drive counts as standing.
 const SETTLED: Duration = Duration::from_millis(500);
-/// A reading may change by less without a turn: it is in whole degrees.
+/// Min change of a reading that shows a turn, degrees: readings are whole degrees.
 const TURN_DEG: i32 = 2;
 
 /// Known motion of one rotator.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Turning {
-    /// Where it stood when it was last found standing.
+    /// Last position at which the rotator stood, degrees.
     rest_deg: Option<i32>,
     coast: Option<Coast>,
 }
 
-/// A turn that is driven, or was until a moment ago.
+/// A turn that the device drives, or has just stopped driving.
 #[derive(Debug, Clone, Copy)]
 struct Coast {
     is_clockwise: bool,
     furthest_deg: i32,
-    /// When the reading last went on.
+    /// Time of the last progress of the reading.
     advanced_at: Instant,
 }
 
 impl Turning {
-    /// Takes the report of `now`, and returns whether the rotator turns.
+    /// Takes the report of `now`, and returns the motion of the rotator.
     pub(super) fn look(&mut self, rotator: &Rotator, now: Instant) -> AxisMotion {
         let angle_deg = rotator.position.ok().map(|angle| i32::from(angle.degrees()));
         let driven = match rotator.moving {
@@ -53,7 +52,7 @@ impl Turning {
             return AxisMotion::Still;
         };
         if let Some(coast) = &mut self.coast {
-            // A reading that flickers between two degrees goes nowhere.
+            // A reading that flickers between two degrees makes no progress.
             let onward = turned_deg(coast.furthest_deg, angle_deg);
             if (onward > 0) == coast.is_clockwise && onward != 0 {
                 (coast.furthest_deg, coast.advanced_at) = (angle_deg, now);
@@ -79,7 +78,7 @@ fn motion(is_clockwise: bool) -> AxisMotion {
     if is_clockwise { AxisMotion::Plus } else { AxisMotion::Minus }
 }
 
-/// The shorter way from one reading to another, clockwise positive.
+/// Returns the shorter way from one reading to another, degrees, clockwise positive.
 fn turned_deg(from_deg: i32, to_deg: i32) -> i32 {
     (to_deg - from_deg + 180).rem_euclid(360) - 180
 }

@@ -20,7 +20,7 @@ impl Satrak {
         Doing { moves, tracks, is_auto }
     }
 
-    /// The next step of the present change; `None` while there is none, or while the unit
+    /// Returns the next step of the current change; `None` if there is none, or while the unit
     /// still works on a setting.
     fn next_of_change(&self, now: Moment) -> Option<NextRequest> {
         let settings_write = self.changes.under_way().filter(|_| self.slow.is_none())?;
@@ -30,7 +30,7 @@ impl Satrak {
         })
     }
 
-    /// The next request of the present change. The change is over when there is no request and
+    /// Returns the next request of the current change. Ends the change once it has no request and
     /// nothing to wait for.
     pub(super) fn write_request(&mut self, now: Moment) -> Option<Request> {
         match self.next_of_change(now)? {
@@ -47,7 +47,7 @@ impl Satrak {
         }
     }
 
-    /// When to call [`Self::write_request`] again.
+    /// Returns the time at which to call [`Self::write_request`] again.
     pub(super) fn write_due(&self, now: Moment) -> Option<Instant> {
         if self.slow.is_some() || self.changes.is_empty() {
             return None;

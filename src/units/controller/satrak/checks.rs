@@ -11,7 +11,7 @@ use crate::{
 pub(super) const FILE_CHECKS: [&str; 2] =
     [name(FaultKind::TleMissing), name(FaultKind::SatelliteMissing)];
 
-/// The checks in the order of the document, also for a unit that has not reported any.
+/// Returns the checks in the order of the document, as unknown if the unit has not reported any.
 pub fn checks(faults: Option<&Faults>) -> Vec<Check> {
     let check = |kind: FaultKind| {
         let fault_state = faults.and_then(|faults| faults.state(kind));
@@ -54,11 +54,11 @@ const fn name(kind: FaultKind) -> &'static str {
     }
 }
 
-/// Meaning of a good result.
+/// Returns the meaning of a good result.
 fn when_good(kind: FaultKind) -> &'static str {
     match kind {
         FaultKind::InternalLink => "control and drive unit talk",
-        // The unit says so too while it holds no file.
+        // The unit also reports no fault while it holds no file.
         FaultKind::TleOutdated | FaultKind::TleMissing | FaultKind::SatelliteMissing => {
             "no fault reported"
         }
@@ -71,7 +71,7 @@ fn when_good(kind: FaultKind) -> &'static str {
     }
 }
 
-/// Advice for a bad result.
+/// Returns the advice for a bad result.
 fn advice(kind: FaultKind) -> &'static str {
     match kind {
         FaultKind::InternalLink => {

@@ -23,9 +23,9 @@ impl Device for Satrak {
         self.state.link_since = Some(now.steady);
         self.state.motion_lock = None;
         self.state.identity = None;
-        // A fault of the last link may be mended by now.
+        // A fault of the previous link may be fixed by now.
         (self.state.checks, self.state.checked_at) = (checks(None).into(), None);
-        // The unit may use other data than on the last link.
+        // The unit may use other data than on the previous link.
         let unit = &mut self.reported;
         (unit.clock, unit.gps, unit.gps_settings) = (None, None, None);
         (unit.clock_is_from_gps, unit.gps_lock_delay_s) = (None, None);
@@ -63,7 +63,7 @@ impl Device for Satrak {
 
     fn receive(&mut self, bytes: &[u8], now: Moment) {
         self.decoder.push(bytes);
-        // One by one, because each may change what is expected next.
+        // Azel takes the lines one by one, because each may change the expected next reply.
         while let Some(line) = self.decoder.next_line() {
             self.record_received(&line, now);
             self.take_line(line.frame, now);
@@ -127,8 +127,8 @@ impl Device for Satrak {
             }
         }
         self.halts.retain(|(_, end)| *end > now.steady);
-        // STOP alone may leave the tracking switched on, and auto-track may switch it on again:
-        // the antenna would start again by itself.
+        // STOP alone may leave tracking on, and auto-track may switch tracking on again. Either
+        // would start the antenna unattended.
         let track = [Halt::TrackOff].into_iter().filter(|_| ends_track);
         let auto_track = [Halt::AutoTrackOff].into_iter().filter(|_| ends_auto_track);
         let halts = [Halt::Stop].into_iter().chain(track).chain(auto_track);
@@ -183,7 +183,7 @@ impl Device for Satrak {
     }
 
     fn patience(&self) -> Duration {
-        // A question and its repetition, on top of the wait for it.
+        // The limit covers a question and its repetition, in addition to the poll period.
         self.poll_period() + REPLY * 2 + DRAIN
     }
 
@@ -198,7 +198,7 @@ impl Controller for Satrak {
     }
 
     fn prepare(&mut self, target: TrackTarget) {
-        // An answer to a step of the former preparation must not advance this one.
+        // An answer to a step of the previous preparation must not advance this preparation.
         if let Some(outstanding) = &mut self.outstanding {
             outstanding.disown();
         }
@@ -220,7 +220,7 @@ impl Controller for Satrak {
     }
 
     fn start(&mut self, motion: Motion) {
-        // A newer request replaces one that has not gone out yet.
+        // A newer request replaces a request that was not sent yet.
         self.motion = Some(WaitingMotion::new(motion));
     }
 }
@@ -234,7 +234,7 @@ mod tests {
         station::Antenna,
     };
 
-    /// A unit that has answered what it holds, so that the offset is the next thing to be sent.
+    /// Returns a unit that has answered the first questions, so Azel sends the offset next.
     fn about_to_shift(now: Moment) -> Satrak {
         let poll = Antenna::satrak("Dish", "in memory").poll;
         let mut satrak = Satrak::new(poll, "stations.txt".to_owned());

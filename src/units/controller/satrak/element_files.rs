@@ -1,4 +1,4 @@
-//! How files of elements reach a Satrak.
+//! The transfer of element files to a Satrak.
 
 use super::{
     ELEMENT_FILE,
@@ -13,7 +13,7 @@ use crate::{
     protocol::satrak::TextValue,
 };
 
-/// By its protocol document, section 23 and the chapter on its server.
+/// Description from the protocol document, section 23 and the chapter on its server.
 pub static ELEMENT_FILES: ElementFiles = ElementFiles {
     folder: "/svs/satrak/tle",
     factory_user: "sftpsatr",

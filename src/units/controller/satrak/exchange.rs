@@ -22,17 +22,17 @@ pub(super) enum Purpose {
     Poll(Query),
     /// A question of the operator.
     Asked(Query),
-    /// A step of putting a target on the unit.
+    /// A step of transferring a target to the unit.
     Prepare,
     /// A step of changing a group of settings.
     WriteSettings,
-    /// Reads the faults for the motion that waits.
+    /// A question for the faults ahead of a pending motion.
     BeforeMotion,
-    /// Starts a motion.
+    /// A command that starts a motion.
     Motion(Motion),
-    /// Switches a program off, without hurry.
+    /// A command that switches a program off, without priority.
     Calm(Halt),
-    /// Overtaken by a halt: its reply does not matter.
+    /// A request that a halt has overtaken: its reply does not matter.
     Disowned,
 }
 
@@ -52,13 +52,12 @@ impl Outstanding {
         self.clock.deadline()
     }
 
-    /// When its reply is missing while the antenna moves.
+    /// Returns the time from which the reply counts as missing while the antenna moves.
     fn prompt_deadline(&self) -> Instant {
         self.clock.sent.steady + PROMPT
     }
 
-    /// Returns `true` for a setting that may make the unit fetch or read a file before it
-    /// answers.
+    /// Returns `true` for a setting that may make the unit fetch or read a file before it answers.
     fn is_slow(&self) -> bool {
         let word = self.request.word();
         self.request.verb() == Verb::Set
@@ -83,26 +82,27 @@ impl Outstanding {
         self.purpose == Purpose::WriteSettings && self.request.verb() == Verb::Set
     }
 
-    /// A halt or a newer request has overtaken it. Settings move nothing.
+    /// Marks a request that a halt or a newer request has overtaken. Settings move nothing and
+    /// stay.
     pub(super) fn disown(&mut self) {
         if !matches!(self.purpose, Purpose::Poll(_) | Purpose::Asked(_) | Purpose::WriteSettings) {
             self.purpose = Purpose::Disowned;
         }
     }
 
-    /// The change for which it looks at the present values is over.
+    /// Marks a read of current values whose change is over.
     pub(super) fn disown_look(&mut self) {
         if self.purpose == Purpose::WriteSettings {
             self.purpose = Purpose::Disowned;
         }
     }
 
-    /// Returns `true` for a poll that is not the repetition of one.
+    /// Returns `true` for a poll that is not a repetition.
     pub(super) fn is_regular_poll(&self) -> bool {
         !self.clock.is_repeated() && matches!(self.purpose, Purpose::Poll(_))
     }
 
-    /// When the question went out for the first time.
+    /// Returns the time of the first transmission of the question.
     pub(super) fn first_sent(&self) -> Instant {
         self.clock.first_sent.steady
     }
@@ -113,7 +113,7 @@ impl Outstanding {
 }
 
 impl Satrak {
-    /// Takes a line of the stream.
+    /// Takes a received line.
     pub(super) fn take_line(&mut self, line: Result<Frame, FrameError>, now: Moment) {
         let frame = match line {
             Ok(frame) => frame,
@@ -249,13 +249,13 @@ impl Satrak {
         }
     }
 
-    /// The unit does not know the question, or does not answer it.
+    /// Handles a question that the unit does not know or does not answer.
     fn poll_failed(&mut self, query: Query, failure: ReadFailure, now: Moment) {
         let is_unanswered = matches!(failure, ReadFailure::Unanswered);
         self.take_read_failure(query, failure);
         let fault = self.reported.fault_flag;
         if query == Query::Faults {
-            // A unit that cannot name its faults still reports that it has some.
+            // A unit that cannot name its faults still reports that a fault exists.
             let was_locked = self.state.motion_lock == Some(true);
             self.state.motion_lock = Some(fault || was_locked);
         }
@@ -308,7 +308,7 @@ impl Satrak {
         }
     }
 
-    /// Ends a setting that took the unit too long.
+    /// Gives up a setting whose reply is overdue.
     pub(super) fn expire_slow(&mut self, now: Moment) {
         if let Some(late) = self.slow.take_if(|slow| now.steady >= slow.deadline()) {
             self.state.traffic.unanswered += 1;
@@ -317,8 +317,8 @@ impl Satrak {
         }
     }
 
-    /// A question is repeated once; other requests never, because the state shows whether they
-    /// arrived.
+    /// Repeats a late question once. Azel never repeats other requests, because the state shows
+    /// whether they arrived.
     pub(super) fn expire(&mut self, now: Moment) -> Option<Vec<u8>> {
         let is_late = |sent: &mut Outstanding| now.steady >= sent.prompt_deadline();
         if let Some(late) = self.probe.take_if(is_late) {
@@ -335,7 +335,7 @@ impl Satrak {
         }
         let is_repeated = late.request.verb() == Verb::Query
             && !late.clock.is_repeated()
-            // The motion would go out long after it was judged.
+            // A repeated question would delay the motion long after its check.
             && late.purpose != Purpose::BeforeMotion;
         self.missed(&late, is_repeated, now);
         if is_repeated {
@@ -350,7 +350,7 @@ impl Satrak {
 
     fn missed(&mut self, late: &Outstanding, is_repeated: bool, now: Moment) {
         self.state.traffic.unanswered += 1;
-        // Noise may never end a line.
+        // Noise may never contain the end of a line.
         if self.decoder.is_within_line() {
             self.state.traffic.last_unreadable = Some(now.steady);
         }
@@ -363,7 +363,7 @@ impl Satrak {
         }
     }
 
-    /// A status may answer an earlier question.
+    /// Returns the outstanding entry of a request. A status may answer an earlier question.
     pub(super) fn outstanding_of(
         &self,
         request: Request,
@@ -377,8 +377,8 @@ impl Satrak {
         outstanding
     }
 
-    /// A status answers the first question that is open, so that the reply to `answered` is still to
-    /// come.
+    /// Sets the time of the question that `answered` answers: a status answers the first open
+    /// question, so the reply to the last question may still come.
     fn date(&mut self, answered: &mut Outstanding) {
         if answered.is_status() {
             self.missing.push_back(answered.clock.sent);
@@ -386,7 +386,7 @@ impl Satrak {
         }
     }
 
-    /// The question that a status answers for which nobody waits any more.
+    /// Returns the question of a late status that Azel had given up.
     fn late_status(&mut self, command: Option<(Word, Verb)>) -> Option<Outstanding> {
         let query = Query::Status;
         let sent = *self.missing.front()?;
@@ -396,8 +396,9 @@ impl Satrak {
         Some(late)
     }
 
-    /// Asks nothing while surplus answers may come: for as long as this one took. While the antenna
-    /// moves and answers are known to be late, Azel asks on, and each status counts as asked earlier.
+    /// Pauses the questions while surplus answers may come, for as long as this answer took. While
+    /// the antenna moves and answers are known to be late, Azel continues to ask, and each status
+    /// counts as asked earlier.
     fn await_surplus(&mut self, answered: &Outstanding, now: Moment) {
         let is_expected = if answered.is_status() {
             !self.missing.is_empty()
@@ -411,7 +412,7 @@ impl Satrak {
         self.drain_until = (is_expected && !asks_on).then(|| now.steady + pause);
     }
 
-    /// During a motion a slow reply must not delay the next position question.
+    /// Asks for the position while a slow reply would delay the next position question of a motion.
     pub(super) fn begin_probe(&mut self, now: Moment) -> Option<Vec<u8>> {
         let waits = self.probe_due().is_some_and(|instant| now.steady >= instant);
         let drains = self.drain_until.is_some_and(|end| now.steady < end);
@@ -434,12 +435,13 @@ impl Satrak {
         if self.is_watched && sent.is_status() { sent.prompt_deadline() } else { sent.deadline() }
     }
 
-    /// Nothing else may be asked before the reply to the present request.
+    /// Returns `true` while a reply is pending, when Azel may ask nothing else.
     pub(super) fn is_waiting(&self) -> bool {
         self.outstanding.is_some() || self.probe.is_some()
     }
 
-    /// When a reply counts as missing, or the position is asked for beside it.
+    /// Returns the time at which a reply counts as missing, or at which Azel asks for the position
+    /// in addition.
     pub(super) fn reply_due(&self) -> Option<Instant> {
         let deadline = self.outstanding.as_ref().map(|sent| self.deadline(sent));
         let probe = match &self.probe {
@@ -472,7 +474,7 @@ impl Satrak {
 }
 
 pub(super) fn unit_motion(motion: Motion) -> Result<unit::Motion, ValueError> {
-    // The unit reports hundredths; more digits would only hide what was requested.
+    // The unit reports hundredths; more digits would only hide the requested value.
     let hundredths = |angle: Angle| (angle.degrees() * 100.0).round() / 100.0;
     Ok(match motion {
         Motion::Jog { x_deg_s, y_deg_s } => unit::Motion::Move(Move::new(x_deg_s, y_deg_s)?),
@@ -486,7 +488,7 @@ pub(super) fn unit_motion(motion: Motion) -> Result<unit::Motion, ValueError> {
     })
 }
 
-/// The refusal as the unit answered it, behind its echo of the command.
+/// Returns the refusal as the unit wrote it after its echo of the command.
 fn refusal(code: &str) -> String {
     if code.is_empty() { "ERR".to_owned() } else { format!("ERR,{code}") }
 }

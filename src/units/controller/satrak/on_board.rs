@@ -1,4 +1,4 @@
-//! Maps a Satrak's reports to what all units that track on board have in common.
+//! Conversion of a Satrak's reports to the data that all units with on-board tracking share.
 
 use super::reported::Reported;
 use crate::{
@@ -6,11 +6,11 @@ use crate::{
     protocol::satrak::Position,
 };
 
-/// Places are reported with two decimals.
+/// Resolution of a reported place, degrees: the unit writes two decimals.
 const STEP_DEG: f64 = 0.01;
 
 impl Reported {
-    /// The data by which the unit tracks.
+    /// Returns the data by which the unit tracks.
     pub(super) fn on_board(&self) -> OnBoard {
         let offsets = self.settings.as_ref().map(|settings| Offsets {
             time_s: settings.time_offset_ms as f64 / 1000.0,
@@ -40,8 +40,8 @@ impl Reported {
         }
     }
 
-    /// The place in use: the configured one, or that of the GPS receiver. The document does
-    /// not say what the unit uses without a fix.
+    /// Returns the place in use: the configured one, or the place from the GPS receiver. The
+    /// document does not say which place the unit uses without a fix.
     fn place(&self) -> Option<Position> {
         let settings = self.gps_settings?;
         if settings.automatic {

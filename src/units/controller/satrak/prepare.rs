@@ -1,4 +1,4 @@
-//! Puts a target on the unit step by step, reading each one back.
+//! Transfer of a target to the unit step by step, with a read-back of each step.
 
 use crate::{
     device::{PrepareError, TrackTarget},
@@ -18,11 +18,11 @@ pub(super) struct Preparation {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum PrepareStep {
-    /// Asks for the file and satellite in use.
+    /// Question for the file and satellite in use.
     AskSatellite,
     SetSatellite,
     ReadSatellite,
-    /// Asks why it did not take the satellite.
+    /// Question for the faults, which explain why the unit did not take the satellite.
     AskFaults,
     SetWindow,
     ReadWindow,
@@ -31,7 +31,7 @@ enum PrepareStep {
 /// Outcome of a step.
 pub(super) enum Outcome {
     Onward,
-    /// The unit holds the target.
+    /// End of the preparation: the unit holds the target.
     Done,
 }
 
@@ -40,8 +40,8 @@ impl Preparation {
         Self { target, step: PrepareStep::AskSatellite, stored: None }
     }
 
-    /// The request of the present step. Satellites are chosen from the element file of the target, else
-    /// from `element_file`, or from the file in use if that is empty.
+    /// Returns the request of the current step. The unit takes satellites from the element file of
+    /// the target, else from `element_file`, or from the file in use if that is empty.
     pub(super) fn request(&self, element_file: &str) -> Result<Request, PrepareError> {
         Ok(match self.step {
             PrepareStep::AskSatellite | PrepareStep::ReadSatellite => {
@@ -65,8 +65,7 @@ impl Preparation {
                     file: text("element file", file)?,
                     name: text("satellite name", &self.target.name)?,
                     period: u16::try_from(satellite.period).unwrap_or(1),
-                    // The unit must not swing over to another satellite before the gate allows
-                    // it.
+                    // The unit must not turn to another satellite before the gate allows it.
                     continue_tracking: false,
                 }))
             }
@@ -86,13 +85,14 @@ impl Preparation {
         })
     }
 
-    /// Takes an answer to the present step. Only answers count: earlier readings may be about
+    /// Takes an answer to the current step. Only answers count: earlier readings may describe
     /// another satellite.
     pub(super) fn answered(&mut self, reply: &Reply) -> Result<Outcome, PrepareError> {
         self.step = match (self.step, reply) {
             (PrepareStep::AskSatellite, Reply::Satellite(satellite)) => {
                 self.stored = Some(satellite.clone());
-                // The file may have new elements, and the unit reads it only when `SATELLITE=` names it.
+                // The file may have new elements, which the unit reads only when `SATELLITE=` names
+                // the file.
                 let is_from_file = self.target.element_file.is_some();
                 if !is_from_file && self.holds_target() {
                     PrepareStep::SetWindow
@@ -103,7 +103,7 @@ impl Preparation {
             (PrepareStep::SetSatellite, Reply::Done) => PrepareStep::ReadSatellite,
             (PrepareStep::ReadSatellite, Reply::Satellite(current)) => {
                 self.stored = Some(current.clone());
-                // The name may be right although the elements are missing.
+                // The name may be right even if the elements are missing.
                 PrepareStep::AskFaults
             }
             (PrepareStep::AskFaults, Reply::Faults(faults)) => {
@@ -130,7 +130,7 @@ impl Preparation {
                 }
                 return Ok(Outcome::Done);
             }
-            // Replies are matched by their word, so no other answer can come here.
+            // Azel matches replies by their word, so no other answer can arrive here.
             _ => return Err(PrepareError::Unanswered),
         };
         Ok(Outcome::Onward)

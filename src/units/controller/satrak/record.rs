@@ -1,4 +1,4 @@
-//! Records the link: lines as the decoder cuts them, each with what it answers.
+//! Recording of the link: lines as the decoder splits them, each with the question it answers.
 
 use std::time::Duration;
 
@@ -10,7 +10,7 @@ use crate::{
 };
 
 impl Satrak {
-    /// Records written frames; `bytes` may hold several.
+    /// Records written frames; `bytes` may contain several frames.
     pub(super) fn record_sent(&mut self, bytes: &[u8], now: Moment) {
         let mut decoder = Decoder::new();
         decoder.push(bytes);
@@ -29,7 +29,7 @@ impl Satrak {
         }
     }
 
-    /// Records a line that was received and not acted upon yet.
+    /// Records a received line before Azel acts on it.
     pub(super) fn record_received(&mut self, line: &ReceivedLine, now: Moment) {
         let shown = line.without_secrets(!self.has_heard_frame);
         self.has_heard_frame |= !matches!(line.frame, Err(FrameError::NoHeader { .. }));
@@ -44,7 +44,7 @@ impl Satrak {
         });
     }
 
-    /// Records the rest of a line whose link is gone.
+    /// Records the rest of a line that the lost link has cut off.
     pub(super) fn record_unfinished(&mut self, now: Moment) {
         if let Some(line) = self.decoder.take_unfinished() {
             self.record_received(&line, now);
@@ -66,7 +66,7 @@ impl Satrak {
         Some(now.steady.saturating_duration_since(sent_at))
     }
 
-    /// When the halt went out that this answers.
+    /// Returns the time at which Azel sent the halt that this reply answers.
     fn halted(&self, (word, verb): (Word, Verb)) -> Option<Instant> {
         let is_answered = |halt: &&(Halt, Instant)| halt.0.word() == word && verb == Verb::Set;
         let (_, end) = self.halts.iter().find(is_answered)?;
@@ -78,13 +78,13 @@ fn command(line: &ReceivedLine) -> Option<(Word, Verb)> {
     line.frame.as_ref().ok()?.command()
 }
 
-/// A received line whose bytes are not shown.
+/// Returns the log entry of a received line whose bytes are not shown.
 fn blank(line: &ReceivedLine, now: Moment) -> WireLine {
     let length = line.length();
     WireLine { length, ..WireLine::new(Direction::Received, &[], finding(line), now.utc) }
 }
 
-/// Meaning of a good line, by the bytes that are kept; secrets are not among them.
+/// Returns the meaning of a good line from the bytes that are kept, which contain no secrets.
 fn meaning_of(line: &ReceivedLine, direction: Direction, shown: &[u8]) -> Option<Meaning> {
     line.frame.is_ok().then(|| words::meaning(direction, shown))
 }

@@ -1,10 +1,10 @@
-//! Decides which question is due when.
+//! The schedule of the questions to the unit.
 
 use std::time::Duration;
 
 use crate::{clock::Instant, protocol::satrak::Query};
 
-/// Slower polls and their intervals.
+/// Questions with slow polls, and their intervals.
 const SLOW: [(Query, Duration); 7] = [
     (Query::Faults, Duration::from_secs(30)),
     (Query::Clock, Duration::from_secs(10)),
@@ -18,10 +18,10 @@ const SLOW: [(Query, Duration); 7] = [
 const FAULTS_WHILE_SET: Duration = Duration::from_secs(1);
 /// Interval for a question that the unit does not know.
 const UNKNOWN: Duration = Duration::from_mins(5);
-/// Interval for a question that the unit did not answer for the first time.
+/// Interval for a question after its first missing answer.
 const RETRY: Duration = Duration::from_secs(5);
-/// Interval for the list of faults that the unit did not answer while the fault flag is set, when
-/// the missing list forbids motion. Each unanswered question takes up to 4 s of the link.
+/// Interval for the list of faults if the unit did not answer while the fault flag is set: the
+/// missing list then forbids motion. Each unanswered question takes up to 4 s of the link.
 const FAULTS_RETRY: Duration = Duration::from_secs(10);
 
 /// The questions, each with the time at which it is due.
@@ -33,15 +33,15 @@ pub(super) struct QuerySchedule {
 }
 
 impl QuerySchedule {
-    /// All questions, due at once, in the order in which a new link is probed.
+    /// Returns all questions, due immediately, in the order in which Azel probes a new link.
     pub(super) fn new(now: Instant) -> Self {
         let probe = [Query::Version, Query::Status];
         let due = probe.into_iter().chain(SLOW.map(|(query, _)| query));
         Self { due: due.map(|query| (query, now)).collect(), missed: Vec::new() }
     }
 
-    /// The question that has been due longest. Once a new link has been probed, the position
-    /// comes before all others.
+    /// Returns the question that has been due longest. Once Azel has probed a new link, the
+    /// position comes before all others.
     pub(super) fn next(&self, now: Instant) -> Option<Query> {
         let is_probed = self.due.iter().all(|(query, due)| *query != Query::Version || *due > now);
         let is_due = |(query, due): &(Query, Instant)| *query == Query::Status && *due <= now;
@@ -56,17 +56,17 @@ impl QuerySchedule {
         self.due.iter().map(|(_, due)| *due).min()
     }
 
-    /// Asks the question before all others, even those that have been due longer.
+    /// Moves the question before all others, even those that have been due longer.
     pub(super) fn hurry(&mut self, query: Query, now: Instant) {
         let first = self.due().map_or(now, |due| due.min(now));
         if let Some(place) = self.due.iter().position(|(candidate, _)| *candidate == query) {
-            // The first of several questions that are due at the same time comes first.
+            // Of several questions that are due at the same time, Azel asks the first entry first.
             self.due.remove(place);
             self.due.insert(0, (query, first));
         }
     }
 
-    /// The question was answered or given up.
+    /// Schedules a question again that was answered or given up.
     pub(super) fn done(&mut self, query: Query, now: Instant, status: Duration, fault: bool) {
         self.missed.retain(|missed| *missed != query);
         let wait = match query {
@@ -82,7 +82,8 @@ impl QuerySchedule {
         self.set(query, now + wait);
     }
 
-    /// The unit did not answer even the second time, or does not know the question.
+    /// Schedules a question again that the unit does not know, or did not answer even the second
+    /// time.
     pub(super) fn unknown(&mut self, query: Query, now: Instant, status: Duration, fault: bool) {
         match query {
             Query::Status => self.set(query, now + status),
@@ -91,8 +92,8 @@ impl QuerySchedule {
         }
     }
 
-    /// The unit did not answer the question. It may have been silent, so the question comes again
-    /// soon, once.
+    /// Schedules a question soon, once, that the unit did not answer: the unit may have been
+    /// silent.
     pub(super) fn missed(&mut self, query: Query, now: Instant) {
         if !self.missed.contains(&query) {
             self.missed.push(query);

@@ -30,7 +30,7 @@ pub use source::{
 pub use times::{AHEAD_S, CLOCK, FROM_GPS, FROM_THIS_PC, SET_FROM, START, STOP, WINDOW};
 pub(super) use times::{CLOCK_SETTING, ahead, is_from_gps};
 
-/// All groups in the order of the forms, with how each is read and written.
+/// All groups in the order of the forms, each with its functions for reading and writing.
 static PLANS: [Plan; 13] = [
     Plan::reported(&GENERAL, Query::Settings, general::values).written(general::write),
     Plan::reported(&GPS, Query::GpsSettings, place::values).written(place::write),
@@ -67,7 +67,8 @@ static PLANS: [Plan; 13] = [
     Plan::reported(&IMAGE, Query::ImageStatus, service::image).written(service::write_image),
 ];
 
-/// A new source may lack the satellite, and switches the reading mode.
+/// Questions after a change of the source. A new source may lack the satellite, and switches the
+/// reading mode.
 const SOURCE: &[Query] = &[Query::Faults, Query::Settings];
 
 /// The groups of settings, in the order of `PLANS`.
@@ -86,17 +87,17 @@ pub static GROUPS: &[&Group] = &{
 pub(super) struct Plan {
     pub(super) group: &'static Group,
     pub(super) query: Query,
-    /// Its values in a reply; `None` for any other reply.
+    /// Conversion of a reply to the values of the group; `None` for any other reply.
     pub(super) values: fn(&Reply) -> Option<Values>,
-    /// The command that changes it; `None` for a group that is only reported.
+    /// Command that changes the group; `None` for a group that the unit only reports.
     pub(super) write: Option<Write>,
     /// Other groups that a change may affect.
     pub(super) also: &'static [Query],
-    /// The fields that the read-back proves wrong.
+    /// Comparison that finds the fields that the read-back proves wrong.
     pub(super) differing: Differing,
-    /// Reason in the faults why the unit cannot work with its values.
+    /// Judgement that finds a fault with which the unit cannot use its values.
     pub(super) judge: Judge,
-    /// The clock is set in whole seconds, and not while the unit tracks by it.
+    /// `true` for the clock. Azel sets it in whole seconds, and not while the unit tracks by it.
     pub(super) is_clock: bool,
 }
 
@@ -125,17 +126,17 @@ pub(super) fn group_of(query: Query) -> Option<&'static Group> {
     PLANS.iter().find(|plan| plan.query == query).map(|plan| plan.group)
 }
 
-/// The group of a reply, with its values.
+/// Returns the group of a reply, with its values.
 pub(super) fn values_of(reply: &Reply) -> Option<(&'static Group, Values)> {
     PLANS.iter().find_map(|plan| Some((plan.group, (plan.values)(reply)?)))
 }
 
-/// A text between commas.
+/// Checks a text that goes between commas.
 fn text(text: &str) -> Result<(), Unfit> {
     TextValue::new("", text).map(drop).map_err(unfit)
 }
 
-/// A web address; its commas are encoded.
+/// Checks a web address; its commas are encoded.
 fn url(text: &str) -> Result<(), Unfit> {
     UrlValue::new(text).map(drop).map_err(unfit)
 }

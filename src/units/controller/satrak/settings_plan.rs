@@ -1,5 +1,5 @@
-//! Writes a group of settings and proves it: checks that the unit still holds what the
-//! operator saw, sends, reads back, and asks the unit for faults.
+//! Verified writing of a group of settings. Azel checks that the unit still holds the values that
+//! the operator saw, sends the change, reads it back and asks the unit for faults.
 
 use super::settings::{Desired, Plan, Proof};
 use crate::{
@@ -8,13 +8,13 @@ use crate::{
     protocol::satrak::{Faults, Reply, Request},
 };
 
-/// A clock is set no later than this after a full second, nanoseconds.
+/// Max delay after a full second at which Azel sets a clock, nanoseconds.
 const FULL_SECOND_NS: i32 = 60_000_000;
 
 /// The next step of a change.
 pub(super) enum NextRequest {
     Send(Request),
-    /// Wait until then.
+    /// Pause until this time.
     At(crate::clock::Instant),
     Over(Result<(), WriteError>),
 }
@@ -22,15 +22,15 @@ pub(super) enum NextRequest {
 /// Activity of the unit while a change waits.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Doing {
-    /// An axis turns, or the program that turns it is on.
+    /// `true` while an axis turns, or the program that turns it is on.
     pub(super) moves: bool,
     pub(super) tracks: bool,
     pub(super) is_auto: bool,
 }
 
 impl Doing {
-    /// The reason not to send a setting that decides where the antenna points. The gate has
-    /// let it through, but something may have begun since.
+    /// Returns the reason not to send a setting that decides where the antenna points. The gate has
+    /// allowed the setting, but a motion may have begun since.
     fn hindrance(self) -> Option<Hindrance> {
         match self {
             Self { tracks: true, .. } => Some(Hindrance::Tracks),
@@ -42,7 +42,7 @@ impl Doing {
 }
 
 impl Plan {
-    /// The next step of a change of this group.
+    /// Returns the next step of a change of this group.
     pub(super) fn next(
         &self,
         settings_write: &SettingsWrite,
@@ -89,7 +89,7 @@ impl Plan {
         }
     }
 
-    /// The present step was answered. An error ends the change at once.
+    /// Takes the reply to the current step. An error ends the change immediately.
     pub(super) fn answered(
         &self,
         settings_write: &mut SettingsWrite,
@@ -115,7 +115,7 @@ impl Plan {
         Ok(())
     }
 
-    /// Fails if the faults object to the values that the unit holds.
+    /// Returns an error if the faults show that the unit cannot use its values.
     fn judged(&self, faults: Faults) -> Result<(), WriteError> {
         let objection = (self.judge)(faults);
         objection.map_or(Ok(()), |reason| Err(WriteError::Useless(reason.to_owned())))

@@ -12,7 +12,7 @@ use crate::{
     },
 };
 
-/// With the factory figures of its document.
+/// Description of a Satrak with the factory figures of its document.
 pub static SPEC: ControllerSpec = ControllerSpec {
     key: "satrak",
     name: "SVS Satrak",
@@ -54,7 +54,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
     },
 };
 
-/// All units of this make have the same abilities.
+/// The only variant: all units of this make have the same abilities.
 pub static VARIANT: Variant = Variant {
     capabilities: Capabilities {
         axes: ["X", "Y"],
@@ -69,8 +69,8 @@ pub static VARIANT: Variant = Variant {
         steps: true,
         ends_jogs: false,
         waits_for_word: false,
-        // Tenths of a degree. A motion slower than half a degree a second, such as tracking,
-        // shows later, while the antenna is watched at rest.
+        // Readings are tenths of a degree. A motion slower than half a degree a second, such as
+        // tracking, shows later, while Azel watches the antenna at rest.
         standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.5, overrun_s: 0.4 },
         effect: Effect { shows_after_s: 4.0, ignores_deg: 0.0 },
         stop_note: None,
@@ -81,7 +81,7 @@ pub static VARIANT: Variant = Variant {
     clock: Some(&CLOCK_SETTING),
 };
 
-/// The element file on the unit from which satellites are chosen; empty for the file in use.
+/// Setting for the element file on the unit that lists the satellites; empty for the file in use.
 pub static ELEMENT_FILE: Setting = Setting::new(
     Field::edit(Key::text("element_file", |_| Ok(())), "Element file on the unit"),
     || Value::Text(String::new()),
@@ -94,7 +94,7 @@ pub static ELEMENT_FILE: Setting = Setting::new(
 });
 
 impl Antenna {
-    /// A Satrak at `address` with default figures.
+    /// Returns a Satrak at `address` with default figures.
     pub fn satrak(name: &str, address: &str) -> Self {
         SPEC.antenna(name, address)
     }

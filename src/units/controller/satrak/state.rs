@@ -1,4 +1,4 @@
-//! Maps a Satrak's reports to the state that all antennas share.
+//! Conversion of a Satrak's reports to the state that all antennas share.
 
 use jiff::Timestamp;
 
@@ -16,11 +16,11 @@ use crate::{
     protocol::satrak::{AxisMotion as UnitMotion, Query, Reply, Status, TrackState},
 };
 
-/// The reason for an unreadable state whose numbers break at decimal commas.
+/// Reason for an unreadable state whose numbers seem to contain decimal commas, with advice.
 pub(super) const DECIMAL_COMMAS: &str = "The unit seems to write decimal commas. Set it to points.";
 
 impl Satrak {
-    /// Takes a reply. `moment`: when the question went out.
+    /// Takes a reply. `moment` is the time of its question.
     pub(super) fn take_report(&mut self, reply: Reply, moment: Moment, now: Moment) {
         let way = now.steady.saturating_duration_since(moment.steady) / 2;
         let measured_at = now.utc.checked_sub(way).unwrap_or(now.utc);
@@ -61,7 +61,7 @@ impl Satrak {
                 unit.satellite = Some(satellite);
                 unit.height_is_of_window = unit.window.is_some();
             }
-            // These appear only among the settings.
+            // The other replies concern only the settings.
             _ => {}
         }
         self.state.on_board = self.reported.on_board();
@@ -78,7 +78,7 @@ impl Satrak {
         self.show_gps_state();
     }
 
-    /// Adds what the status tells about GPS to the groups where the operator looks for it.
+    /// Adds the GPS values of a status to the groups in which the operator expects them.
     fn show_gps_state(&mut self) {
         let unit = &self.reported;
         let added = [
@@ -97,7 +97,7 @@ impl Satrak {
         }
     }
 
-    /// A question was refused or not answered; earlier readings stay.
+    /// Stores the failure of a question; earlier readings stay.
     pub(super) fn take_read_failure(&mut self, query: Query, failure: ReadFailure) {
         if let Some(group) = group_of(query) {
             self.state.group(group.key).failure = Some(failure);
@@ -129,7 +129,7 @@ impl Satrak {
             auto: status.auto_track,
         });
         if status.fault && !self.reported.fault_flag {
-            // The next answer names the fault.
+            // The answer to the next fault question names the fault.
             self.state.motion_lock = None;
         }
         self.reported.fault_flag = status.fault;

@@ -1,4 +1,4 @@
-//! The motion that waits to be sent, and the list of faults that is read before it.
+//! The motion that waits to be sent, and the list of faults that Azel reads before it.
 
 use super::{
     Satrak,
@@ -13,7 +13,7 @@ use crate::{
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WaitingMotion {
     motion: Motion,
-    /// The list of faults was requested after the motion and forbids nothing.
+    /// `true` if Azel requested the list of faults after the motion, and the list forbids nothing.
     are_faults_read: bool,
 }
 
@@ -24,9 +24,10 @@ impl WaitingMotion {
 }
 
 impl Satrak {
-    /// The next request for the waiting motion. A fault sets the flag of the status, which the gate
-    /// needs fresh, so a motion without the flag goes out at once. While the flag is set, for
-    /// example by a warning, it cannot announce another fault: the list comes first.
+    /// Returns the next request for the waiting motion. A fault sets the flag of the status, which
+    /// the gate needs fresh, so Azel sends a motion without the flag immediately. A flag that is
+    /// already set, for example by a warning, cannot announce another fault: Azel reads the list
+    /// first.
     pub(super) fn motion_request(&mut self, now: Moment) -> Option<(Request, Purpose)> {
         let waiting = self.motion?;
         if self.reported.fault_flag && !waiting.are_faults_read {
@@ -46,7 +47,7 @@ impl Satrak {
         }
     }
 
-    /// The list of faults has come that was requested before the motion.
+    /// Judges the waiting motion by the list of faults that has come for it.
     pub(super) fn judge_waiting_motion(&mut self) {
         if self.state.motion_lock != Some(false) {
             self.drop_waiting_motion("that a fault forbids motion");
@@ -55,7 +56,7 @@ impl Satrak {
         }
     }
 
-    /// `answer` reads on from "the unit answered".
+    /// Refuses the waiting motion. `answer` completes the sentence "the unit answered".
     pub(super) fn drop_waiting_motion(&mut self, answer: &str) {
         if let Some(waiting) = self.motion.take() {
             let refused = ControllerEvent::Refused(waiting.motion.into(), answer.to_owned());

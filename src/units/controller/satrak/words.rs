@@ -1,4 +1,4 @@
-//! Meaning of lines on the link, and the questions that can be asked by hand.
+//! Meaning of lines on the link, and the questions that the operator can ask by hand.
 
 use std::borrow::Cow;
 
@@ -27,7 +27,7 @@ pub(super) fn query(key: &str) -> Option<Query> {
     Query::ALL.into_iter().find(|(_, candidate)| *candidate == word).map(|(query, _)| query)
 }
 
-/// Why a typed word, in capitals, is not sent.
+/// Returns the reason why Azel does not send a typed word, in capitals.
 pub(super) fn why_no_question(text: &str) -> String {
     if text.contains(['$', '*']) {
         return "Type the word alone: header and checksum are added here.".to_owned();
@@ -45,7 +45,7 @@ pub(super) fn why_no_question(text: &str) -> String {
     }
 }
 
-/// Why a word of the protocol is not sent from here.
+/// Returns the reason why the operator cannot send a word of the protocol by hand.
 const fn refusal(word: Word) -> &'static str {
     match word {
         Word::Stop => "STOP has its own button and key, which wait for nothing.",
@@ -69,7 +69,7 @@ const fn refusal(word: Word) -> &'static str {
     }
 }
 
-/// Meaning of a good line with these bytes.
+/// Returns the meaning of a good line with these bytes.
 pub fn meaning(direction: Direction, bytes: &[u8]) -> Meaning {
     let outcome = frame(bytes).map(|frame| match direction {
         Direction::Sent => unit::Meaning::of_request(&frame),
@@ -88,7 +88,7 @@ pub fn meaning(direction: Direction, bytes: &[u8]) -> Meaning {
     Meaning { tone, text: text.into() }
 }
 
-/// A good line, value by value.
+/// Returns the explanation of a good line, value by value.
 pub(super) fn explain(line: &WireLine) -> Explained {
     let frame = (line.finding == Finding::Good).then(|| frame(&line.bytes)).flatten();
     let Some(frame) = frame else { return Explained::default() };
@@ -113,7 +113,7 @@ fn frame(bytes: &[u8]) -> Option<Frame> {
     let mut decoder = Decoder::new();
     decoder.push(bytes);
     decoder.next()?.ok().or_else(|| {
-        // Without its values a frame has no checksum any more.
+        // A frame has no checksum once its values were removed.
         let text = std::str::from_utf8(bytes).ok()?.trim_end();
         Some(Frame::from_payload(text.rsplit_once('$')?.1))
     })

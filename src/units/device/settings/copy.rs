@@ -1,8 +1,8 @@
-//! The settings of a unit as a file: written from what was read, and compared with what the
-//! unit holds now.
+//! A copy of a unit's settings in a file. Azel writes it from the values that it has read, and
+//! compares it with the unit's current values.
 //!
-//! The file is TOML with one table for each group. It never holds a password; service
-//! settings are shown, but never taken from it.
+//! The file is TOML with one table for each group. It contains no password. Azel shows service
+//! settings from the file, but never applies them.
 
 use std::fmt::Write as _;
 
@@ -31,9 +31,9 @@ pub struct CopyHead {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SettingsCopy {
     pub head: CopyHead,
-    /// Values in the file that a unit of this make has, in the order of the forms.
+    /// Values in the file that exist on units of this make, in the order of the forms.
     pub values: Vec<CopiedValue>,
-    /// Names in the file that no unit of this make has, as `group.field`.
+    /// Names in the file that exist on no unit of this make, as `group.field`.
     pub unknown: Vec<String>,
 }
 
@@ -58,36 +58,36 @@ pub struct Difference {
     pub field: &'static Field,
     /// Value in the copy, or the reason why it cannot be used.
     pub copied: Result<Value, Unfit>,
-    /// Value on the unit; `None` where unknown.
+    /// Value on the unit; `None` if unknown.
     pub current: Option<Value>,
     pub verdict: Verdict,
 }
 
-/// Decision on taking a value from a copy.
+/// Decision on applying a value from a copy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
-    /// The value may be taken.
+    /// A value that the operator may apply.
     Free,
-    /// A service setting: only shown.
+    /// A service setting, which Azel only shows.
     Service,
-    /// The value cannot be used; its error says why.
+    /// A value that cannot be used; its error gives the reason.
     Unfit,
-    /// The unit's value was not read.
+    /// A setting whose value on the unit was not read.
     NotRead,
 }
 
-/// Why a file is not a copy of settings.
+/// Reason why a file is not a copy of settings.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CopyError {
     #[error("it is not TOML: {0}")]
     Syntax(String),
-    /// Another file, or a damaged one.
+    /// Another or damaged file without this key.
     #[error("it is not a copy of settings: {0} is missing")]
     NoCopy(&'static str),
-    /// A newer program wrote the file.
+    /// A file from a newer Azel.
     #[error("it has version {0}, this program knows {VERSION}; use the newer program")]
     Newer(i64),
-    /// The copy is of another make.
+    /// A copy for another make.
     #[error("it holds settings of a {found}, not of a {expected}")]
     OtherController {
         /// Make in the file.
@@ -97,14 +97,14 @@ pub enum CopyError {
     },
 }
 
-/// Returns `true` for the fields that a copy holds.
+/// Returns `true` for the fields that a copy contains.
 fn is_copied(field: &Field) -> bool {
     field.access == Access::Edit && !matches!(field.kind, Kind::Password(_))
 }
 
 impl SettingsCopy {
-    /// Text of a copy with the values of `groups` in `unit_settings`. A group that was not read is
-    /// named in a comment with the reason.
+    /// Returns the text of a copy with the values of `groups` in `unit_settings`. A comment names
+    /// each group that was not read, with the reason.
     pub fn text(head: &CopyHead, groups: &[&'static Group], unit_settings: &GroupStates) -> String {
         let text = |text: &str| toml::Value::String(text.to_owned());
         let mut lines = format!(
@@ -134,8 +134,8 @@ impl SettingsCopy {
         lines
     }
 
-    /// Reads a copy for a unit of make `controller` with these groups. A bad value does not
-    /// spoil the others.
+    /// Reads a copy for a unit of make `controller` with these groups. A bad value does not affect
+    /// the other values.
     pub fn read(
         text: &str,
         controller: &str,
@@ -175,7 +175,7 @@ impl SettingsCopy {
         Ok(Self { head, values, unknown: unknown(&table, groups) })
     }
 
-    /// The settings that differ on the unit.
+    /// Returns the settings that differ on the unit.
     pub fn differences(
         &self,
         groups: &[&'static Group],
@@ -186,7 +186,7 @@ impl SettingsCopy {
             let field = group.field(copied.field)?;
             let of_group = unit_settings.get(group.key).and_then(|state| state.last_read.as_ref());
             let current = of_group.and_then(|read| read.values.get(field.key)).cloned();
-            // A value that cannot be sent, such as an empty text, may still be on the unit.
+            // The unit may hold a value that cannot be sent, such as an empty text.
             let is_held = |current: &Value| match &copied.value {
                 Ok(value) => field.kind.same(value, current),
                 Err(_) => as_toml(field, current) == copied.written,
@@ -211,7 +211,7 @@ fn first_line(error: &toml::de::Error) -> String {
     error.message().lines().next().unwrap_or_default().to_owned()
 }
 
-/// Writes choices by name, and times and texts as the operator reads them.
+/// Converts a value to TOML: choices by name, and times and texts as the operator reads them.
 fn as_toml(field: &Field, value: &Value) -> toml::Value {
     match value {
         Value::Flag(on) => toml::Value::Boolean(*on),

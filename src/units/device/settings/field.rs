@@ -5,36 +5,37 @@ use super::{Key, Unfit, Value, Values};
 /// Settings that a device reports with one answer and takes with one command.
 #[derive(Debug)]
 pub struct Group {
-    /// Names the group in files and commands.
+    /// Name of the group in files and commands.
     pub key: &'static str,
-    /// Its head in the form.
+    /// Title of the group in the form.
     pub title: &'static str,
-    /// In the order of the form.
+    /// Fields in the order of the form.
     pub fields: &'static [Field],
-    /// Calibration, drive scaling, firmware: a wrong value moves the antenna or
+    /// `true` for calibration, drive scaling and firmware: a wrong value moves the antenna or
     /// points it wrong.
     pub is_service: bool,
 }
 
-/// One setting.
+/// Description of one setting of a unit.
 #[derive(Debug)]
 pub struct Field {
     /// Key within its group.
     pub key: &'static str,
-    /// Label before its value in the form.
+    /// Label before the value in the form.
     pub label: &'static str,
-    /// Unit behind its value; empty for none.
+    /// Unit after the value; empty for none.
     pub unit: &'static str,
-    /// Values that it can hold.
+    /// Values that the field can hold.
     pub kind: Kind,
     /// Access of the device and of the operator.
     pub access: Access,
-    /// How much care a new value takes.
+    /// Care that a new value requires.
     pub guard: fn(&Value) -> Guard,
-    /// It decides where the antenna points or when it starts: it passes the gate.
+    /// `true` if the field decides where the antenna points or when it starts: changes pass the
+    /// gate.
     pub moves: bool,
-    /// Whole that it is a part of. Parts of one whole in a group mean nothing alone: a new value
-    /// goes out with the values of the other parts, or waits for them.
+    /// Name of the whole that the field is a part of. Parts of one whole in a group mean nothing
+    /// alone: Azel sends a new value with the values of the other parts, or waits for them.
     pub part_of: Option<&'static str>,
     /// Explanation in a sentence or two.
     pub description: &'static str,
@@ -51,48 +52,48 @@ pub enum Kind {
     Word(&'static [(&'static str, &'static str)]),
     /// A whole number.
     Integer { min: i64, max: i64 },
-    /// A number that is shown and compared with so many decimal places, and sent with three
-    /// at most.
+    /// A number that Azel shows and compares with this number of decimal places, and sends with
+    /// three at most.
     Decimal { min: f64, max: f64, places: usize },
-    /// A number as precise as it is typed.
+    /// A number with the precision that the operator typed.
     Number { min: f64, max: f64 },
     /// An angle with a letter for its sign, such as `41.02N`.
     Place {
-        /// Largest magnitude, degrees.
+        /// Max magnitude, degrees.
         max: f64,
-        /// Letters of positive and negative.
+        /// Letters of a positive and a negative angle.
         letters: [char; 2],
     },
-    /// Two measured points or more that make a scale, or none.
+    /// Two or more measured points that make a scale, or none.
     Points,
     /// A text that passes this check.
     Text(fn(&str) -> Result<(), Unfit>),
-    /// A secret that passes this check. Never shown, logged or saved.
+    /// A secret that passes this check. Azel never shows, logs or saves it.
     Password(fn(&str) -> Result<(), Unfit>),
     /// UTC to the second.
     Time,
 }
 
-/// Access to a field: who reports it and who sets it.
+/// Access to a field: the device may report it, the operator may set it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Access {
-    /// Reported by the device and set by the operator.
+    /// A value that the device reports and the operator sets.
     Edit,
-    /// Only reported.
+    /// A value that the device only reports.
     Read,
-    /// Goes along with a change and is never reported. Its first choice, or
-    /// off, stands where the operator says nothing.
+    /// A value that Azel sends with a change and the device never reports. Its default is the first
+    /// choice, or off.
     Write,
 }
 
-/// How much care a new value takes.
+/// Care that a new value requires.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Guard {
-    /// Nothing special.
+    /// No special care.
     Free,
-    /// The operator confirms it by itself.
+    /// Separate confirmation of this value by the operator.
     Confirm,
-    /// Only with the service functions unlocked, and while the antenna stands.
+    /// Unlocked service functions, and an antenna at rest.
     Service,
 }
 
@@ -101,7 +102,7 @@ const fn free(_: &Value) -> Guard {
 }
 
 impl Field {
-    /// A setting without a unit that the operator may change freely.
+    /// Returns a setting without a unit of measure, which the operator may change freely.
     pub const fn edit<T>(key: Key<T>, label: &'static str) -> Self {
         Self {
             key: key.name,
@@ -116,41 +117,41 @@ impl Field {
         }
     }
 
-    /// A value that is only reported.
+    /// Returns a value that the device only reports.
     pub const fn read<T>(key: Key<T>, label: &'static str) -> Self {
         Self { access: Access::Read, ..Self::edit(key, label) }
     }
 
-    /// A value that goes along with a change and is never reported.
+    /// Returns a value that Azel sends with a change and the device never reports.
     pub const fn write<T>(key: Key<T>, label: &'static str) -> Self {
         Self { access: Access::Write, ..Self::edit(key, label) }
     }
 
-    /// With the unit behind its value.
+    /// Returns the field with this unit after its value.
     #[must_use]
     pub const fn in_unit(self, unit: &'static str) -> Self {
         Self { unit, ..self }
     }
 
-    /// With what it does.
+    /// Returns the field with this explanation.
     #[must_use]
     pub const fn description(self, text: &'static str) -> Self {
         Self { description: text, ..self }
     }
 
-    /// With the care that its values take.
+    /// Returns the field with the care that its values require.
     #[must_use]
     pub const fn guarded(self, guard: fn(&Value) -> Guard) -> Self {
         Self { guard, ..self }
     }
 
-    /// As a part of this whole.
+    /// Returns the field as a part of `whole`.
     #[must_use]
     pub const fn part_of(self, whole: &'static str) -> Self {
         Self { part_of: Some(whole), ..self }
     }
 
-    /// With the mark of what decides where the antenna points or when it starts.
+    /// Returns the field marked as deciding where the antenna points or when it starts.
     #[must_use]
     pub const fn moving(self) -> Self {
         Self { moves: true, ..self }
@@ -158,24 +159,24 @@ impl Field {
 }
 
 impl Group {
-    /// The field with this key.
+    /// Returns the field with this key.
     pub fn field(&self, key: &str) -> Option<&'static Field> {
         self.fields.iter().find(|field| field.key == key)
     }
 
-    /// The other parts of what `field` is a part of.
+    /// Returns the other parts of the whole that `field` is a part of.
     pub fn other_parts(&self, field: &Field) -> impl Iterator<Item = &'static Field> {
         let (key, whole) = (field.key, field.part_of);
         let is_other = move |other: &&Field| whole.is_some() && other.part_of == whole;
         self.fields.iter().filter(is_other).filter(move |other| other.key != key)
     }
 
-    /// Something in it can be set.
+    /// Returns `true` if the group contains a field that can be set.
     pub fn is_writable(&self) -> bool {
         self.fields.iter().any(|field| field.access != Access::Read)
     }
 
-    /// The most care that any of `values` takes.
+    /// Returns the strictest care that any of `values` requires.
     pub fn guard(&self, values: &Values) -> Guard {
         if self.is_service {
             return Guard::Service;
@@ -184,7 +185,7 @@ impl Group {
         guards.max_by_key(|guard| *guard as u8).unwrap_or(Guard::Free)
     }
 
-    /// The first field of `values` that decides where the antenna points.
+    /// Returns the first field of `values` that decides where the antenna points.
     pub fn moving_field(&self, values: &Values) -> Option<&'static Field> {
         self.fields.iter().find(|field| field.moves && values.contains_key(field.key))
     }

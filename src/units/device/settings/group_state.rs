@@ -8,24 +8,24 @@ use serde::{Deserialize, Serialize};
 use super::{Hindrance, Unfit, Values};
 use crate::name::{self, Name};
 
-/// Groups of a unit by key, each as far as known.
+/// Known groups of a unit by key.
 pub type GroupStates = BTreeMap<Name, GroupState>;
 
 /// Known state of a group.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct GroupState {
-    /// Values as last read.
+    /// Values of the last read.
     #[serde(rename = "held")]
     pub last_read: Option<HeldGroup>,
-    /// Why the last read failed; `None` where it did not.
+    /// Reason why the last read failed; `None` after a success.
     pub failure: Option<ReadFailure>,
-    /// Step of the change under way; `None` without one.
+    /// Step of the change under way; `None` without a change.
     pub step: Option<WriteStep>,
     /// The last finished change.
     pub written: Option<Arc<Written>>,
 }
 
-/// Values of a group as read.
+/// Values of a group as Azel read them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HeldGroup {
     #[serde(deserialize_with = "name::map")]
@@ -33,13 +33,13 @@ pub struct HeldGroup {
     pub read_at: Timestamp,
 }
 
-/// Why a group could not be read.
+/// Reason why Azel could not read a group.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum ReadFailure {
-    /// The unit does not know the question. The text is its answer.
+    /// A question that the unit does not know. The text is its answer.
     #[error("the unit answered {0}")]
     Refused(String),
-    /// No readable answer came.
+    /// A missing or unreadable answer.
     #[error("the unit did not answer")]
     Unanswered,
 }
@@ -47,32 +47,32 @@ pub enum ReadFailure {
 /// Step of a change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum WriteStep {
-    /// Other changes come first.
+    /// Pending, because other changes come first.
     Waiting,
-    /// The present values are read, to compare them with those that the operator saw.
+    /// Reading of the current values, to compare them with the values that the operator saw.
     Looking,
-    /// The change was sent.
+    /// Sending: the change went out and is not answered.
     Sending,
-    /// The values are read back.
+    /// Reading back of the values.
     ReadingBack,
 }
 
 /// New values for a group of a unit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Change {
-    /// Number that is repeated with the outcome.
+    /// Number that the outcome repeats.
     pub ticket: u64,
     /// Key of the group.
     #[serde(deserialize_with = "name::one")]
     pub group: Name,
-    /// New values. Fields that are absent here keep theirs.
+    /// New values. Fields that are absent here keep their values.
     #[serde(deserialize_with = "name::map")]
     pub values: Values,
-    /// Values that the operator saw. If the unit holds others by then, nothing is sent.
-    /// `None` accepts any.
+    /// Values that the operator saw. If the unit holds other values, Azel sends nothing. `None`
+    /// accepts any values.
     #[serde(rename = "seen", deserialize_with = "name::option_map")]
     pub expected: Option<Values>,
-    /// The operator has unlocked the service functions.
+    /// `true` if the operator has unlocked the service functions.
     pub is_unlocked: bool,
 }
 
@@ -83,32 +83,31 @@ pub struct Written {
     /// End of the change.
     #[serde(rename = "at")]
     pub time: Timestamp,
-    /// `Ok` when the values were read back and found right.
+    /// Outcome; `Ok` if Azel has read the values back and they are right.
     pub result: Result<(), WriteError>,
 }
 
-/// Why a change is not on the unit, or is not known to be.
+/// Reason why a change is not on the unit, or may not be.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum WriteError {
     #[error("there is no link to the unit")]
     NoLink,
     #[error("the link was lost before it was read back")]
     LinkLost,
-    /// The group does not exist, or a value of the change cannot be set.
+    /// A group that does not exist, or a value that cannot be set.
     #[error("the unit has no such setting")]
     NoSuchSetting,
     #[error("service functions are locked")]
     Locked,
-    /// Nothing was sent.
+    /// Lock-out of the unit: Azel sent nothing.
     #[error("the unit is locked out for maintenance")]
     LockedOut,
     #[error("the antenna moves")]
     Moving,
-    /// STOP came first. Nothing was sent.
+    /// A STOP that came first: Azel sent nothing.
     #[error("it was stopped before it was sent")]
     Stopped,
-    /// The change decides where the antenna points, and this is a bad moment. Nothing was
-    /// sent.
+    /// A bad moment for a change that decides where the antenna points: Azel sent nothing.
     #[error("{hindrance}")]
     Hindered {
         /// Key of the field.
@@ -116,13 +115,13 @@ pub enum WriteError {
         field: Name,
         hindrance: Hindrance,
     },
-    /// The group could not be read before the change.
+    /// A group that Azel could not read before the change.
     #[error("the present values cannot be read: {0}")]
     Unread(ReadFailure),
-    /// Someone else has changed the group meanwhile. Nothing was sent.
+    /// A group that someone else has changed in the meantime: Azel sent nothing.
     #[error("the values on the unit have changed meanwhile")]
     ChangedMeanwhile,
-    /// A value cannot be sent. Nothing was sent.
+    /// A value that cannot be sent: Azel sent nothing.
     #[error("{field} {reason}")]
     CannotBeSent {
         /// Key of the field.
@@ -130,19 +129,19 @@ pub enum WriteError {
         field: Name,
         reason: Unfit,
     },
-    /// The unit refused. The text is its answer.
+    /// A refusal of the unit. The text is its answer.
     #[error("the unit answered {0}")]
     Refused(String),
-    /// No answer came, and the read-back shows the old values.
+    /// A missing answer; the read-back shows the old values.
     #[error("the unit did not answer and kept its values")]
     Unanswered,
-    /// The change was accepted or not answered, and could not be read back.
+    /// A missing read-back after the unit accepted the change or did not answer.
     #[error("it could not be read back: {0}")]
     NotReadBack(ReadFailure),
-    /// The read-back differs in these fields.
+    /// A read-back that differs in these fields.
     #[error("the unit holds other values after it said OK")]
     Differs(#[serde(deserialize_with = "name::list")] Vec<Name>),
-    /// The unit holds the values but cannot work with them.
+    /// Values that the unit holds but cannot use.
     #[error("{0}")]
     Useless(String),
 }

@@ -12,27 +12,27 @@ use crate::{
 /// Age from which a position says nothing about an antenna that may move.
 const RECENT: Duration = Duration::from_secs(5);
 
-/// Why a setting that decides where the antenna points is not sent now.
+/// Reason not to send a setting now that decides where the antenna points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum Hindrance {
     #[error("a stop is under way: wait until the antenna has stopped")]
     Stopping,
-    /// On this link, the position was not read lately, or the unit's program was not read.
+    /// A link on which Azel has not recently read the position, or has not read the unit's program.
     #[error("it is not known whether the antenna is at rest: wait until its position is read")]
     Unknown,
-    /// The unit tracks by itself.
+    /// On-board track that is under way.
     #[error("the unit tracks: stop it first")]
     Tracks,
-    /// The unit starts to track by itself.
+    /// Auto-track that is on.
     #[error("auto-track is on: switch it off first")]
     AutoTrack,
-    /// The antenna moves, or may move.
+    /// An antenna that moves, or may move.
     #[error("the antenna moves: stop it first")]
     Moves,
 }
 
 impl Hindrance {
-    /// The reason, by the state of a unit, not to send such a setting at `now`.
+    /// Returns the reason not to send such a setting at `now`, according to the state of a unit.
     pub fn from_state(state: &AntennaState, can: Capabilities, now: Instant) -> Option<Self> {
         let link_since = state.link_since;
         let measured = state

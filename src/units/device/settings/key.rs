@@ -1,16 +1,16 @@
-//! Keys of fields: what is spelled wrong, or read as another type, does not compile.
+//! Keys of fields. A misspelled key, or one read as another type, does not compile.
 
 use jiff::Timestamp;
 
 use super::{Kind, Secret, Unfit, Value, Values};
 use crate::device::CountPoint;
 
-/// The key of a field whose value is a `T`, and the values that it can hold.
+/// The key of a field with values of type `T`, and the values that the field can hold.
 #[derive(Debug)]
 pub struct Key<T: 'static> {
-    /// Names the field within its group.
+    /// Name of the field within its group.
     pub name: &'static str,
-    /// Values that it can hold.
+    /// Values that the field can hold.
     pub kind: Kind,
     wrap: fn(T) -> Value,
     unwrap: fn(&Value) -> Option<T>,
@@ -25,19 +25,19 @@ impl<T> Clone for Key<T> {
 impl<T> Copy for Key<T> {}
 
 impl<T> Key<T> {
-    /// The value among `values`; `None` where it is not known.
+    /// Returns the value among `values`; `None` if unknown.
     pub fn get(&self, values: &Values) -> Option<T> {
         values.get(self.name).and_then(self.unwrap)
     }
 
-    /// An entry of [`Values`].
+    /// Returns an entry of [`Values`].
     pub fn entry(&self, value: T) -> (&'static str, Value) {
         (self.name, (self.wrap)(value))
     }
 }
 
 impl Key<bool> {
-    /// On or off.
+    /// Returns the key of a flag, on or off.
     pub const fn flag(name: &'static str) -> Self {
         let unwrap = |value: &Value| match value {
             Value::Flag(on) => Some(*on),
@@ -48,7 +48,7 @@ impl Key<bool> {
 }
 
 impl Key<i64> {
-    /// A whole number within these ends.
+    /// Returns the key of a whole number from `min` to `max`.
     pub const fn integer(name: &'static str, min: i64, max: i64) -> Self {
         let unwrap = |value: &Value| match value {
             Value::Integer(number) => Some(*number),
@@ -57,7 +57,7 @@ impl Key<i64> {
         Self { name, kind: Kind::Integer { min, max }, wrap: Value::Integer, unwrap }
     }
 
-    /// One of these codes, each with its name.
+    /// Returns the key of one of these codes, each with its name.
     pub const fn choice(name: &'static str, choices: &'static [(i64, &'static str)]) -> Self {
         let unwrap = |value: &Value| match value {
             Value::Choice(code) => Some(*code),
@@ -68,12 +68,12 @@ impl Key<i64> {
 }
 
 impl Key<f64> {
-    /// A number within these ends, with so many decimal places.
+    /// Returns the key of a number from `min` to `max` with this number of decimal places.
     pub const fn decimal(name: &'static str, min: f64, max: f64, places: usize) -> Self {
         Self::of_kind(name, Kind::Decimal { min, max, places })
     }
 
-    /// An angle up to this magnitude, degrees, with a letter for each sign.
+    /// Returns the key of an angle up to this magnitude, degrees, with a letter for each sign.
     pub const fn place(name: &'static str, max: f64, letters: [char; 2]) -> Self {
         Self::of_kind(name, Kind::Place { max, letters })
     }
@@ -88,12 +88,12 @@ impl Key<f64> {
 }
 
 impl Key<String> {
-    /// A text that passes this check.
+    /// Returns the key of a text that passes this check.
     pub const fn text(name: &'static str, check: fn(&str) -> Result<(), Unfit>) -> Self {
         Self::of_kind(name, Kind::Text(check))
     }
 
-    /// One of these words, each with its name.
+    /// Returns the key of one of these words, each with its name.
     pub const fn word(
         name: &'static str,
         choices: &'static [(&'static str, &'static str)],
@@ -111,7 +111,7 @@ impl Key<String> {
 }
 
 impl Key<Vec<CountPoint>> {
-    /// Measured points that make a scale.
+    /// Returns the key of measured points that make a scale.
     pub const fn points(name: &'static str) -> Self {
         let unwrap = |value: &Value| match value {
             Value::Points(points) => Some(points.clone()),
@@ -122,7 +122,7 @@ impl Key<Vec<CountPoint>> {
 }
 
 impl Key<Secret> {
-    /// A secret that passes this check.
+    /// Returns the key of a secret that passes this check.
     pub const fn password(name: &'static str, check: fn(&str) -> Result<(), Unfit>) -> Self {
         let unwrap = |value: &Value| match value {
             Value::Secret(secret) => Some(secret.clone()),
@@ -133,7 +133,7 @@ impl Key<Secret> {
 }
 
 impl Key<Timestamp> {
-    /// UTC to the second.
+    /// Returns the key of a UTC time to the second.
     pub const fn time(name: &'static str) -> Self {
         let unwrap = |value: &Value| match value {
             Value::Time(time) => Some(*time),

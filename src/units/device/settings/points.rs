@@ -1,15 +1,15 @@
-//! Measured points as text: a count and an angle a line.
+//! Text of measured points: one count and angle on each line.
 
 use super::{Unfit, value::number};
 use crate::device::CountPoint;
 
-/// One point a line.
+/// Returns the text of the points, one point a line.
 pub(super) fn write(points: &[CountPoint]) -> String {
     let lines = points.iter().map(|point| format!("{} {}", point.counts, point.degrees));
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// The points of a text, and the reason when it holds anything else.
+/// Returns the points of a text, or the reason why it contains anything else.
 pub(super) fn read(text: &str) -> Result<Vec<CountPoint>, Unfit> {
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let points: Vec<CountPoint> = lines

@@ -1,4 +1,4 @@
-//! Queue of setting changes for a unit: one is under way, the others wait.
+//! Queue of setting changes for a unit: one change is under way, the others wait.
 
 use std::collections::VecDeque;
 
@@ -11,19 +11,19 @@ pub(crate) struct ChangeQueue {
     groups: &'static [&'static Group],
     under_way: Option<SettingsWrite>,
     waiting: VecDeque<Waiting>,
-    /// The unit is locked out: no setting is sent to it.
+    /// `true` while the unit is locked out: Azel sends it no setting.
     are_locked: bool,
 }
 
 #[derive(Debug)]
 struct Waiting {
     change: Change,
-    /// As of [`SettingsWrite::is_judged`].
+    /// `true` for a change that the gate has judged as a motion, see [`SettingsWrite::is_judged`].
     is_judged: bool,
 }
 
 impl ChangeQueue {
-    /// A queue for a unit with these groups.
+    /// Returns a queue for a unit with these groups.
     pub(crate) fn new(groups: &'static [&'static Group]) -> Self {
         Self { groups, under_way: None, waiting: VecDeque::new(), are_locked: false }
     }
@@ -40,7 +40,7 @@ impl ChangeQueue {
         self.under_way.as_ref()
     }
 
-    /// Returns `true` if no change is under way or waits.
+    /// Returns `true` if no change is under way or pending.
     pub(crate) fn is_empty(&self) -> bool {
         self.under_way.is_none() && self.waiting.is_empty()
     }
@@ -49,7 +49,7 @@ impl ChangeQueue {
         self.push_back(Waiting { change, is_judged: false }, state);
     }
 
-    /// Takes a change that the gate has judged as a motion.
+    /// Queues a change that the gate has judged as a motion.
     pub(crate) fn push_judged(&mut self, change: Change, state: &mut AntennaState) {
         self.push_back(Waiting { change, is_judged: true }, state);
     }
@@ -59,8 +59,8 @@ impl ChangeQueue {
         self.waiting.push_back(waiting);
     }
 
-    /// A halt has come: ends what the gate has judged as a motion and is not sent. `is_sent`: the
-    /// unit owes an answer to the command of the change under way. Returns `true` if that was
+    /// Ends the unsent changes that the gate has judged as motions, because of a halt. `is_sent` is
+    /// `true` if the unit owes an answer to the change under way. Returns `true` if that change
     /// ended.
     pub(crate) fn void_judged(
         &mut self,
@@ -98,7 +98,8 @@ impl ChangeQueue {
         }
     }
 
-    /// Applies `step` to the change under way; an error ends it. Returns whether it ended.
+    /// Applies `step` to the change under way; an error ends the change. Returns `true` if it
+    /// ended.
     pub(crate) fn advance(
         &mut self,
         state: &mut AntennaState,
@@ -128,7 +129,7 @@ impl ChangeQueue {
         }
     }
 
-    /// Records that `change` is not sent.
+    /// Records `change` as not sent, with the error.
     pub(crate) fn refuse(
         &self,
         change: Change,
@@ -139,8 +140,7 @@ impl ChangeQueue {
         self.written(change, Err(write_error), state, now);
     }
 
-    /// Ends all changes because the link is gone. A change that was sent may be on the
-    /// unit.
+    /// Ends all changes because the link is lost. A change that was sent may be on the unit.
     pub(crate) fn abandon(&mut self, state: &mut AntennaState, now: Moment) {
         if let Some(settings_write) = self.under_way.take() {
             let is_lost = settings_write.may_be_sent();

@@ -1,5 +1,5 @@
-//! One change of settings on its way to a unit: reads the present values, sends the new
-//! ones, and reads them back. Nothing is sent twice.
+//! One change of settings under way to a unit. The change reads the current values, sends the new
+//! values, and reads them back. It sends nothing twice.
 
 use super::{Access, Change, Field, Group, Guard, ReadFailure, Values, WriteError, WriteStep};
 
@@ -9,31 +9,31 @@ pub(crate) struct SettingsWrite {
     pub(crate) change: Change,
     pub(crate) group: &'static Group,
     step: WriteAction,
-    /// Values read before anything was sent.
+    /// Values that were read before the change.
     before: Values,
     /// Outcome of sending and reading back so far.
     result: Result<(), WriteError>,
     /// Number of finished questions after the read-back.
     checked: usize,
-    /// The gate has judged where it leads an antenna that tracks.
+    /// `true` if the gate has judged where the change leads an antenna that tracks.
     is_judged: bool,
 }
 
-/// The answer that a change waits for.
+/// The answer for which a change waits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum WriteAction {
-    /// The present values.
+    /// The current values.
     Look,
     /// The answer to the command.
     Send,
-    /// The values after it.
+    /// The values after the command.
     ReadBack,
     /// Answers to questions after the read-back, if any.
     Done,
 }
 
 impl SettingsWrite {
-    /// Begins `change` on a unit with these groups, or says why it cannot begin.
+    /// Starts `change` on a unit with these groups. Returns the reason if it cannot start.
     pub(crate) fn new(
         change: &Change,
         groups: &'static [&'static Group],
@@ -58,7 +58,7 @@ impl SettingsWrite {
         self.step
     }
 
-    /// Progress for the operator.
+    /// Returns the progress for the operator.
     pub(crate) fn shown(&self) -> WriteStep {
         match self.step {
             WriteAction::Look => WriteStep::Looking,
@@ -72,8 +72,8 @@ impl SettingsWrite {
         self.group.guard(&self.change.values) == Guard::Service
     }
 
-    /// Key of the first field of the change that decides where the antenna points and may be
-    /// sent only while it stands.
+    /// Returns the key of the first field of the change that decides where the antenna points and
+    /// must wait for standstill.
     pub(crate) fn moving_field(&self) -> Option<&'static str> {
         let field = self.group.moving_field(&self.change.values).map(|field| field.key);
         field.filter(|_| !self.is_judged)
@@ -84,17 +84,17 @@ impl SettingsWrite {
         self.is_judged
     }
 
-    /// Returns `true` if the unit may have taken any of the change.
+    /// Returns `true` if the unit may have taken a part of the change.
     pub(crate) fn may_be_sent(&self) -> bool {
         self.step != WriteAction::Look
     }
 
-    /// Values that the unit held before the change.
+    /// Returns the values that the unit held before the change.
     pub(crate) fn before(&self) -> &Values {
         &self.before
     }
 
-    /// Takes the present values. They end the change if they are not those the operator
+    /// Takes the current values. The change ends if they differ from the values that the operator
     /// saw.
     pub(crate) fn looked(&mut self, unit_values: Values) -> Result<(), WriteError> {
         self.before = unit_values;
@@ -105,13 +105,13 @@ impl SettingsWrite {
         Ok(())
     }
 
-    /// The unit accepted the command.
+    /// Handles the unit's acceptance of the command.
     pub(crate) fn accepted(&mut self) {
         self.step = WriteAction::ReadBack;
     }
 
-    /// Takes the values read back. `differing` are the keys of the fields that do not hold
-    /// the requested values.
+    /// Takes the values of the read-back. `differing` contains the keys of the fields that do not
+    /// hold the requested values.
     pub(crate) fn read_back(&mut self, unit_values: &Values, differing: Vec<&'static str>) {
         self.result = match std::mem::replace(&mut self.result, Ok(())) {
             Ok(()) | Err(WriteError::Unanswered) if differing.is_empty() => Ok(()),
@@ -124,7 +124,7 @@ impl SettingsWrite {
         self.step = WriteAction::Done;
     }
 
-    /// The unit refused the question or command of the present step.
+    /// Handles a refusal of the question or command of the current step.
     pub(crate) fn refused(&mut self, code: String) -> Result<(), WriteError> {
         match self.step {
             WriteAction::Look => return Err(WriteError::Unread(ReadFailure::Refused(code))),
@@ -138,7 +138,7 @@ impl SettingsWrite {
         Ok(())
     }
 
-    /// No readable answer came to the question or command of the present step.
+    /// Handles a missing or unreadable answer to the question or command of the current step.
     pub(crate) fn unanswered(&mut self) -> Result<(), WriteError> {
         match self.step {
             WriteAction::Look => return Err(WriteError::Unread(ReadFailure::Unanswered)),
@@ -159,8 +159,8 @@ impl SettingsWrite {
         }
     }
 
-    /// Takes the answer to a question after the read-back. `verdict` says whether the unit
-    /// can work with the values.
+    /// Takes the answer to a question after the read-back. `verdict` says whether the unit can use
+    /// the values.
     pub(crate) fn judge(&mut self, verdict: Result<(), WriteError>) {
         self.checked += 1;
         if self.result.is_ok() {
@@ -172,12 +172,13 @@ impl SettingsWrite {
         self.checked
     }
 
-    /// The outcome so far.
+    /// Returns the outcome so far.
     pub(crate) fn result(&self) -> Result<(), WriteError> {
         self.result.clone()
     }
 
-    /// Compares the editable fields only: reported values may change at any time.
+    /// Returns `true` if the values differ from those that the operator saw. Only editable fields
+    /// count, because reported values may change at any time.
     fn has_changed_meanwhile(&self) -> bool {
         let Some(previous) = &self.change.expected else { return false };
         let is_editable = |field: &&Field| field.access == Access::Edit;

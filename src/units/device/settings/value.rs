@@ -19,7 +19,7 @@ pub type Values = BTreeMap<Name, Value>;
 pub enum Value {
     /// Value of a [`Kind::Flag`].
     Flag(bool),
-    /// Code of a [`Kind::Choice`], which may be one without a name.
+    /// Code of a [`Kind::Choice`], which may have no name.
     Choice(i64),
     /// Value of a [`Kind::Integer`].
     Integer(i64),
@@ -53,7 +53,7 @@ impl From<Vec<CountPoint>> for Value {
     }
 }
 
-/// Why a value cannot be used; reads on from the name of its field.
+/// Reason why a value cannot be used, as the rest of a sentence after the name of its field.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum Unfit {
     #[error("must be a number from {} to {}", signed(min), signed(max))]
@@ -64,21 +64,21 @@ pub enum Unfit {
     Place { max: f64, letter: char },
     #[error("must be a time such as 2026-08-12 11:30:00")]
     Time,
-    /// The choices, in words.
+    /// A value that is none of the choices, which are listed.
     #[error("must be one of {0}")]
     Choice(String),
-    /// A sentence without its subject and its full stop.
+    /// Another reason: a sentence without its subject and its full stop.
     #[error("{0}")]
     Text(String),
 }
 
-/// With a true minus sign.
+/// Returns the text of a number with a true minus sign.
 fn signed(number: &impl ToString) -> String {
     number.to_string().replace('-', "\u{2212}")
 }
 
 impl Kind {
-    /// Reads what the operator typed.
+    /// Reads a text that the operator typed.
     pub fn read(&self, text: &str) -> Result<Value, Unfit> {
         let trimmed = text.trim();
         let read = match *self {
@@ -115,7 +115,7 @@ impl Kind {
         read.ok_or_else(|| self.unfit())
     }
 
-    /// The reason to refuse what it cannot hold.
+    /// Returns the reason to refuse a value of another kind or outside the range.
     pub(crate) fn unfit(&self) -> Unfit {
         match *self {
             Self::Flag | Self::Choice(_) | Self::Word(_) => {
@@ -132,13 +132,14 @@ impl Kind {
         }
     }
 
-    /// Checks that it can hold `value`, as it can whatever it reads.
+    /// Checks that the field can hold `value`, which is true for every value that [`Self::read`]
+    /// returns.
     pub fn check(&self, value: &Value) -> Result<(), Unfit> {
         let read = self.read(&self.text(value))?;
         (read == *value).then_some(()).ok_or_else(|| self.unfit())
     }
 
-    /// The names that can be chosen; `None` where anything can be typed.
+    /// Returns the names that can be chosen; `None` if any text can be typed.
     pub fn choices(&self) -> Option<Vec<&'static str>> {
         match self {
             Self::Flag => Some(vec![DISABLED_WORD, ON]),
@@ -148,13 +149,13 @@ impl Kind {
         }
     }
 
-    /// The text of a field that nothing was chosen or typed in: its first choice, or none.
+    /// Returns the text of an untouched field: its first choice, or an empty text.
     pub fn untouched(&self) -> String {
         let first = self.choices().and_then(|choices| choices.first().copied());
         first.unwrap_or_default().to_owned()
     }
 
-    /// The value as the operator reads and types it. A password is nothing.
+    /// Returns the value as the operator reads and types it; an empty text for a password.
     pub fn text(&self, value: &Value) -> String {
         match (self, value) {
             (_, Value::Flag(on)) => if *on { ON } else { DISABLED_WORD }.to_owned(),
@@ -192,17 +193,17 @@ impl Kind {
     }
 }
 
-/// At least `places` decimal places, and more where the number has more.
+/// Returns a number with at least `places` decimal places, or more if the number has more.
 fn decimals(number: f64, places: usize) -> String {
     let shortest = number.to_string();
     let has = shortest.split_once('.').map_or(0, |(_, digits)| digits.len());
     if has > places { shortest } else { format!("{number:.places$}") }
 }
 
-/// A number with a point or a comma, with either minus sign and blanks between its digits,
-/// as people type and paste it.
+/// Reads a number as people type and paste it: with a point or a comma, with either minus sign, and
+/// with blanks between its digits.
 pub fn number(text: &str) -> Option<f64> {
-    // Minus zero would look like a change.
+    // Adding zero removes a minus zero, which would count as a change.
     plain(text).parse().ok().filter(|number: &f64| number.is_finite()).map(|number| number + 0.0)
 }
 
@@ -217,7 +218,7 @@ fn plain(text: &str) -> String {
         .collect()
 }
 
-/// As precise as any controller takes it.
+/// Reads a number within the range, rounded to three decimal places as controllers take it.
 fn decimal(text: &str, min: f64, max: f64) -> Option<f64> {
     let rounded = number(text).map(|number| (number * 1000.0).round() / 1000.0 + 0.0);
     rounded.filter(|number| (min..=max).contains(number))

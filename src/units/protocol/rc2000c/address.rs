@@ -18,15 +18,15 @@ pub struct AddressError {
 
 impl Address {
     // The source of 50 is a third-party driver for this model, not the manual.
-    /// Factory setting.
+    /// Factory setting of the address.
     pub const FACTORY: Self = Self(50);
 
-    /// Address `number`, 49 to 111.
+    /// Returns address `number`, 49 to 111.
     pub const fn new(number: u8) -> Result<Self, AddressError> {
         if MIN <= number && number <= MAX { Ok(Self(number)) } else { Err(AddressError { number }) }
     }
 
-    /// Number of the address, which is also the byte on the line.
+    /// Returns the number of the address, which is also the byte on the line.
     pub const fn number(self) -> u8 {
         self.0
     }

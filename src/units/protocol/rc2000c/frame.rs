@@ -11,11 +11,11 @@ pub(super) const STX: u8 = 0x02;
 pub(super) const ETX: u8 = 0x03;
 pub(super) const ACK: u8 = 0x06;
 pub(super) const NAK: u8 = 0x15;
-/// Length of the longest frame, a status.
+/// Length of the longest frame, a status, bytes.
 pub const MAX_FRAME_BYTES: usize = 38;
-/// Length of the longest command, an auto move.
+/// Length of the longest command, an auto move, bytes.
 pub const MAX_COMMAND_BYTES: usize = 16;
-/// Bytes of a frame around its data: header, address, code, ETX, checksum.
+/// Length of a frame around its data, bytes: header, address, code, ETX, checksum.
 pub(super) const ENVELOPE_BYTES: usize = 5;
 /// Data of a reply from a unit whose remote mode is disabled.
 pub(super) const OFFLINE: &[u8] = b"F";
@@ -23,11 +23,11 @@ pub(super) const OFFLINE: &[u8] = b"F";
 /// First byte of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Header {
-    /// STX: a command. On the console's side it is an echo.
+    /// STX: a command, or its echo on the console's side.
     Command,
-    /// ACK: the command was understood, or the unit is offline.
+    /// ACK: a command that the unit understood, or an offline unit.
     Ack,
-    /// NAK: the command was refused.
+    /// NAK: a command that the unit refused.
     Nak,
 }
 
@@ -53,19 +53,19 @@ impl Header {
 /// The commands of appendix E.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Command {
-    /// Ask for the type of the unit.
+    /// Question for the type of the unit.
     DeviceType = 0x30,
-    /// Ask for the status.
+    /// Question for the status.
     Status = 0x31,
-    /// Go to a satellite or a position.
+    /// Move to a satellite or a position.
     AutoMove = 0x32,
-    /// Jog azimuth or elevation, or stop.
+    /// Jog of azimuth or elevation, or a stop.
     Jog = 0x33,
-    /// Turn the polarization.
+    /// Turn of the polarization.
     Polarization = 0x34,
-    /// Ask for the name of a stored satellite.
+    /// Question for the name of a stored satellite.
     SatelliteName = 0x35,
-    /// Alarms, automatic polarization, track mode.
+    /// Commands for alarms, automatic polarization and the track mode.
     Miscellaneous = 0x36,
 }
 
@@ -89,13 +89,14 @@ impl Command {
         self as u8
     }
 
-    /// Length of a good reply in all, bytes.
+    /// Returns the total length of a good reply, bytes.
     pub const fn reply_bytes(self) -> usize {
-        // A frame carries no length: these numbers alone tell where a reply ends (appendix E).
+        // A frame carries no length: only these numbers show the end of a reply (appendix E).
         match self {
             Self::DeviceType => 11,
             Self::SatelliteName => 19,
-            // Any command that acts is answered with the whole status, under its own code.
+            // The unit answers every command that acts with the whole status, under the command's
+            // code.
             Self::Status
             | Self::AutoMove
             | Self::Jog
@@ -115,7 +116,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Frame around `data`, which must be printable characters.
+    /// Returns a frame around `data`, which must be printable characters.
     pub(super) fn new(header: Header, address: Address, code: u8, data: Vec<u8>) -> Self {
         Self { header, address, code, data }
     }
@@ -124,22 +125,22 @@ impl Frame {
         self.header
     }
 
-    /// Address of the unit that receives or sends the frame.
+    /// Returns the address of the unit that receives or sends the frame.
     pub const fn address(&self) -> Address {
         self.address
     }
 
-    /// Command code, which a reply repeats. Not every code is a [`Command`].
+    /// Returns the command code, which a reply repeats. Not every code is a [`Command`].
     pub const fn code(&self) -> u8 {
         self.code
     }
 
-    /// Characters between code and ETX, 20h to 7Fh.
+    /// Returns the characters between code and ETX, 20h to 7Fh.
     pub fn data(&self) -> &[u8] {
         &self.data
     }
 
-    /// Bytes on the line, each below 80h.
+    /// Returns the bytes on the line, each below 80h.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = vec![self.header.byte(), self.address.number(), self.code];
         bytes.extend_from_slice(&self.data);
@@ -149,7 +150,7 @@ impl Frame {
     }
 }
 
-/// Checksum: XOR of every byte from the header to ETX (appendix E). It may equal any
+/// Returns the checksum: XOR of every byte from the header to ETX (appendix E). It may equal any
 /// control byte.
 pub fn checksum(bytes: &[u8]) -> u8 {
     bytes.iter().fold(0, |sum, byte| sum ^ byte)

@@ -10,21 +10,22 @@ use super::{Address, Command, Frame, Header, SatelliteName, Status};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reply {
     DeviceType(DeviceType),
-    /// Status in reply to `command`. For a motion it says that the command was understood, not
-    /// that it was carried out.
+    /// Status in reply to `command`. For a motion, it says that the unit understood the command,
+    /// not that the unit carried it out.
     Status {
         command: Command,
         status: Status,
     },
     /// One entry of the list of satellites.
     SatelliteName(NameEntry),
-    /// The unit is configured to take no commands. Its frame begins with ACK all the same.
+    /// Reply of a unit that is configured to take no commands. Its frame begins with ACK
+    /// nevertheless.
     Offline {
         /// Code of the command.
         code: u8,
     },
-    /// The command is unknown, has a wrong length or cannot be carried out; the unit does not
-    /// say which.
+    /// Refusal of a command that is unknown, has a wrong length or cannot be carried out. The unit
+    /// does not report which.
     Refused {
         /// Code of the command.
         code: u8,
@@ -43,7 +44,7 @@ pub enum ReplyError {
     /// A list entry without numbers.
     #[error("list entry without numbers")]
     Entry,
-    /// No reply has this code and form.
+    /// A frame whose code and form match no reply.
     #[error("reply to {code:02X} without meaning")]
     Form {
         /// Code of the reply.
@@ -54,13 +55,13 @@ pub enum ReplyError {
 /// Kind of mount and firmware version.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DeviceType {
-    /// Mount that the firmware is made for.
+    /// Mount for which the firmware is made.
     pub mount: MountKind,
     /// First two digits of the version, as characters.
     pub version: [u8; 2],
 }
 
-/// Kind of mount that the firmware is made for.
+/// Kind of mount for which the firmware is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MountKind {
     /// RC2000C, elevation over azimuth.
@@ -82,7 +83,7 @@ impl MountKind {
 
     fn from_name(name: [u8; 4]) -> Self {
         let entry = Self::NAMES.into_iter().find(|(_, bytes)| *bytes == name);
-        // Sister models answer too, such as the RC2000A with `RC2K`, but use other codes in places.
+        // Related models such as the RC2000A (`RC2K`) also answer, but use some other codes.
         entry.map_or(Self::Other(name), |(mount, _)| mount)
     }
 
@@ -96,7 +97,7 @@ impl MountKind {
 }
 
 impl fmt::Display for DeviceType {
-    /// Formats as `2KCA 1.4`.
+    /// Formats the type, for example as `2KCA 1.4`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // The reply leaves out the point: 4.31 comes as `43` (appendix E).
         let [whole, tenth] = self.version.map(char::from);
@@ -112,7 +113,7 @@ pub struct NameEntry {
     pub index: u8,
     /// Number of entries in the list.
     pub count: u8,
-    /// Name, to be sent as it is.
+    /// Name as received, which a command must repeat unchanged.
     pub name: SatelliteName,
 }
 
@@ -120,10 +121,10 @@ impl Reply {
     pub fn parse(frame: &Frame) -> Result<Self, ReplyError> {
         let (code, data) = (frame.code(), frame.data());
         match frame.header() {
-            // An RS-422 adapter may return what it sends.
+            // An RS-422 adapter may return the bytes that it sends.
             Header::Command => return Err(ReplyError::Echo { code }),
             Header::Nak => return Ok(Self::Refused { code }),
-            // Tested before the code, because this reply may come to each command.
+            // This test precedes the code, because any command may get this reply.
             Header::Ack if data == OFFLINE => return Ok(Self::Offline { code }),
             Header::Ack => {}
         }
@@ -141,7 +142,7 @@ impl Reply {
         }
     }
 
-    /// Frame from the unit at `address`.
+    /// Returns the frame from the unit at `address`.
     pub fn to_frame(&self, address: Address) -> Frame {
         let (header, code, data) = match self {
             Self::DeviceType(device) => {

@@ -14,22 +14,20 @@ pub use value::ValueError;
 
 use super::{Address, Command, Frame, Header};
 
-/// Data of STOP for azimuth and elevation: speed and duration must be valid, though
-/// unused.
+/// Data of STOP for azimuth and elevation. Speed and duration must be valid, but have no effect.
 const STOP: &[u8] = b"XS0000";
 
-/// Any request of a console. Its values were checked when it was built, so encoding cannot
-/// fail.
+/// Any request of a console. Its values were checked at construction, so encoding cannot fail.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Request {
-    /// Reads. Even so, any command may take the panel from a local operator.
+    /// A read. Any command, even a read, may take the panel from a local operator.
     Query(Query),
-    /// Ends motion of azimuth and elevation; always allowed. Whether it ends an
-    /// auto move, polarization or tracking is not documented.
+    /// End of any motion of azimuth and elevation; always allowed. The document does not say
+    /// whether it ends an auto move, polarization or tracking.
     Stop,
-    /// Can make metal move.
+    /// A command that can move the antenna or the polarization.
     Motion(Motion),
-    /// Changes later behaviour of the unit.
+    /// A change of the unit's later behaviour.
     Setting(Setting),
 }
 
@@ -43,15 +41,15 @@ pub enum Query {
     SatelliteName(NameIndex),
 }
 
-/// Index in the list of satellites, 1 to 50. An RC2000C has 35 of them, with a polar mount
-/// 50.
+/// Index in the list of satellites, 1 to 50. The list of an RC2000C has 35 entries, or 50 with a
+/// polar mount.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct NameIndex(u8);
 
 impl NameIndex {
     const MAX: u8 = 50;
 
-    /// Index from 1 to 50.
+    /// Returns the index, or an error outside 1 to 50.
     pub fn new(index: u8) -> Result<Self, ValueError> {
         value::checked("place in the list", index.into(), 1, Self::MAX.into())?;
         Ok(Self(index))
@@ -65,10 +63,10 @@ impl NameIndex {
 /// Settings, which only affect later moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Setting {
-    /// Set the polarization with each satellite. While on, the unit refuses commands for the
+    /// Automatic polarization for each satellite. While it is on, the unit refuses commands for the
     /// polarization.
     AutoPolarization(bool),
-    /// Band of a dual-band satellite; only while tracking.
+    /// Band of a dual-band satellite; valid only while the unit tracks.
     Band(Band),
 }
 
@@ -80,7 +78,7 @@ pub enum Band {
 }
 
 impl Request {
-    /// Command, whose code the reply repeats.
+    /// Returns the command, whose code the reply repeats.
     pub const fn command(&self) -> Command {
         match self {
             Self::Query(Query::DeviceType) => Command::DeviceType,
@@ -93,7 +91,7 @@ impl Request {
         }
     }
 
-    /// Frame for the unit at `address`.
+    /// Returns the frame for the unit at `address`.
     pub fn to_frame(&self, address: Address) -> Frame {
         let data = match self {
             Self::Query(Query::DeviceType | Query::Status) => Vec::new(),
@@ -102,8 +100,9 @@ impl Request {
             }
             Self::Stop => STOP.to_vec(),
             Self::Motion(motion) => motion.data(),
-            // The page of appendix E with these letters could not be read whole. The second letters
-            // are those of the RC1500 and the RC4000, whose protocols derive from this one.
+            // Only a part of the page of appendix E with these letters was legible. The second
+            // letters come from the RC1500 and the RC4000, whose protocols derive from this
+            // protocol.
             Self::Setting(Setting::AutoPolarization(true)) => b"PN".to_vec(),
             Self::Setting(Setting::AutoPolarization(false)) => b"PF".to_vec(),
             Self::Setting(Setting::Band(Band::C)) => b"TC".to_vec(),
@@ -112,7 +111,7 @@ impl Request {
         Frame::new(Header::Command, address, self.command().code(), data)
     }
 
-    /// Bytes to send to the unit at `address`.
+    /// Returns the bytes for the unit at `address`.
     pub fn to_bytes(&self, address: Address) -> Vec<u8> {
         self.to_frame(address).to_bytes()
     }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Length of the field on the line.
+/// Length of the field on the line, bytes.
 pub(super) const NAME_BYTES: usize = 10;
 
 /// Reason why a name cannot be sent.
@@ -17,17 +17,17 @@ pub enum NameError {
     Empty,
 }
 
-/// Name of a stored satellite: ten characters of printable ASCII. It must match the stored
-/// one to the character, so blanks on its left side are kept.
+/// Name of a stored satellite: ten characters of printable ASCII. It must match the stored name
+/// exactly, so it keeps its leading blanks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SatelliteName([u8; NAME_BYTES]);
 
 impl SatelliteName {
-    /// Field when no name is shown.
+    /// Field without a name.
     pub const BLANK: Self = Self([b' '; NAME_BYTES]);
 
-    /// A name of 1 to 10 characters: upper-case letters, digits and ASCII signs,
-    /// padded with blanks on its right side.
+    /// Returns a name of 1 to 10 characters: upper-case letters, digits and ASCII signs, padded
+    /// with trailing blanks.
     pub fn new(name: &str) -> Result<Self, NameError> {
         let mut field = [b' '; NAME_BYTES];
         let mut places = field.iter_mut();
@@ -42,18 +42,18 @@ impl SatelliteName {
         if name.trim().is_empty() { Err(NameError::Empty) } else { Ok(Self(field)) }
     }
 
-    /// Name from a field of a frame: any characters that a frame may hold.
+    /// Returns the name in a field of a frame, with any characters.
     pub(super) fn from_field(field: &[u8]) -> Option<Self> {
-        // Unchecked: a listed name must go back to the unit as it came.
+        // The characters are unchecked: a listed name must go back to the unit unchanged.
         field.try_into().ok().map(Self)
     }
 
-    /// Field of a frame.
+    /// Returns the field of a frame.
     pub(super) const fn field(&self) -> &[u8; NAME_BYTES] {
         &self.0
     }
 
-    /// Name without the blanks on its right side.
+    /// Returns the name without its trailing blanks.
     pub fn as_str(&self) -> &str {
         std::str::from_utf8(&self.0).unwrap_or_default().trim_end_matches(' ')
     }

@@ -15,43 +15,43 @@ pub use track::{Receiver, ReceiverChannel, Submode, Track, TrackBand};
 use super::SatelliteName;
 use position::PositionAxis;
 
-/// Characters of a status in its frame.
+/// Length of a status in its frame, characters.
 pub(super) const STATUS_BYTES: usize = 33;
-/// Fixed upper bits of most coded characters; a blank codes nothing.
+/// Fixed upper bits of most coded characters; a blank has no coded bits.
 const BASE: u8 = 0x20;
-/// Character for an unknown polarization mode, for a blank means one.
+/// Character for an unknown polarization mode, because a blank is a valid mode.
 const NO_MODE: u8 = b'?';
 
-/// Status of a unit. A field that is not as documented is `Unknown` or `None`, and the
-/// others stay valid; the frame keeps the characters.
+/// Status of a unit. An undocumented field value becomes `Unknown` or `None`, and the other fields
+/// stay valid; the frame keeps the characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Status {
-    /// Satellite on the display, blank if there is none.
+    /// Satellite on the display, blank for none.
     pub satellite: SatelliteName,
     pub name_display: NameDisplay,
     pub azimuth: Position,
     pub elevation: Position,
     pub feed: FeedReading,
     pub polarization_mode: Option<PolarizationMode>,
-    /// Positive is clockwise.
+    /// Drive of the azimuth; positive is clockwise.
     pub azimuth_drive: AxisDrive,
-    /// Positive is up.
+    /// Drive of the elevation; positive is up.
     pub elevation_drive: AxisDrive,
     pub polarization_motion: PolarizationMotion,
-    /// Most urgent alarm; the next one shows when it is cleared.
+    /// Most urgent alarm; the unit shows the next alarm once this one is cleared.
     pub alarm: Alarm,
-    /// `None` from an RC2000A, which has no track mode.
+    /// Track mode; `None` from an RC2000A, which has none.
     pub track: Option<Track>,
-    /// `None` from an RC2000A, which has no receiver.
+    /// Receiver; `None` from an RC2000A, which has none.
     pub receiver: Option<Receiver>,
 }
 
 /// Style in which the display shows the name of a satellite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NameDisplay {
-    /// Upper case: the antenna points at it.
+    /// Upper case: the antenna points at the satellite.
     OnSatellite,
-    /// Lower case: the antenna points close to it.
+    /// Lower case: the antenna points close to the satellite.
     NearSatellite,
     Hidden,
     Unknown(u8),
@@ -78,8 +78,8 @@ impl NameDisplay {
 }
 
 impl Status {
-    /// Returns `true` if the track mode, which is on, lets commands turn the polarization; `None`
-    /// while it is off, when the flag means nothing.
+    /// Returns `true` if an active track mode lets commands turn the polarization; `None` while it
+    /// is off and the flag has no meaning.
     pub fn allows_polarization(&self) -> Option<bool> {
         self.track.filter(|track| track.submode.is_active())?;
         self.receiver.map(|receiver| receiver.allows_polarization)
@@ -123,8 +123,8 @@ impl Status {
         })
     }
 
-    /// Characters between code and ETX. Blanks stand for an absent track mode and receiver, as
-    /// an RC2000A sends them.
+    /// Returns the characters between code and ETX. Blanks replace an absent track mode and
+    /// receiver, as on an RC2000A.
     pub(super) fn data(&self) -> Vec<u8> {
         let mut data = Vec::with_capacity(STATUS_BYTES);
         data.extend_from_slice(self.satellite.field());
@@ -143,12 +143,12 @@ impl Status {
         data
     }
 
-    /// Returns `true` if an axis or the polarization turns or is about to, according to the unit.
-    /// An axis whose drive is still may yet coast: compare its positions.
+    /// Returns `true` if the unit reports that an axis or the polarization turns or is about to
+    /// turn. An axis with an idle drive may still coast: compare its positions.
     pub const fn is_moving(&self) -> bool {
         self.azimuth_drive.is_moving()
             || self.elevation_drive.is_moving()
-            // An unknown code counts as motion, as it does for an axis.
+            // An unknown code counts as motion, like an unknown code of an axis.
             || !matches!(self.polarization_motion, PolarizationMotion::Still)
     }
 }

@@ -2,13 +2,13 @@
 
 use super::{RotatorKind, RotatorName, RotatorNumber, ValueError, WholeDegrees};
 
-/// Largest stop offset, degrees.
+/// Max stop offset, degrees.
 pub const MAX_STOP_OFFSET_DEG: u8 = 10;
 
-/// Configuration of one rotator, which is always sent as a whole.
+/// Configuration of one rotator, which Azel always sends as a whole.
 ///
-/// It cannot be read back as a whole: a status has the limits, kind and name but not the
-/// stop offset. The field "Offset" of a status is another value.
+/// Azel cannot read back the whole configuration: a status has the limits, kind and name but not
+/// the stop offset. The field "Offset" of a status is another value.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Configuration {
     rotator: RotatorNumber,
@@ -20,8 +20,9 @@ pub struct Configuration {
 }
 
 impl Configuration {
-    /// Clockwise and counter-clockwise limit, kind, stop offset (degrees before a target at
-    /// which the drive is cut off, 0 to [`MAX_STOP_OFFSET_DEG`]), and name.
+    /// Returns a configuration from the clockwise and counter-clockwise limit, kind, stop offset
+    /// and name. The stop offset is the distance to a target at which the unit cuts off the drive,
+    /// degrees, 0 to [`MAX_STOP_OFFSET_DEG`].
     pub fn new(
         rotator: RotatorNumber,
         [limit_cw, limit_ccw]: [WholeDegrees; 2],
@@ -39,12 +40,12 @@ impl Configuration {
         self.rotator
     }
 
-    /// The end of the travel clockwise.
+    /// Returns the end of the travel clockwise.
     pub fn limit_cw(&self) -> WholeDegrees {
         self.limit_cw
     }
 
-    /// The end of the travel counter-clockwise.
+    /// Returns the end of the travel counter-clockwise.
     pub fn limit_ccw(&self) -> WholeDegrees {
         self.limit_ccw
     }
@@ -53,7 +54,7 @@ impl Configuration {
         self.kind
     }
 
-    /// Degrees before a target at which the drive is cut off.
+    /// Returns the distance to a target at which the unit cuts off the drive, degrees.
     pub fn stop_offset_deg(&self) -> u8 {
         self.stop_offset_deg
     }
@@ -62,11 +63,10 @@ impl Configuration {
         &self.name
     }
 
-    /// Encodes 22 bytes. The document's example has 12: it lacks the name that the document
-    /// itself lists.
+    /// Encodes 22 bytes. The document's example has 12: it lacks the name that the document lists.
     pub(super) fn to_bytes(&self) -> Vec<u8> {
-        // The order is that of the input data in section 1.1. The descriptions below it put the
-        // name in another place.
+        // The order follows the input data in section 1.1. The descriptions below that put the name
+        // in another place.
         let front = format!(
             "|c{}{}{}{}{:02}",
             self.rotator.number(),

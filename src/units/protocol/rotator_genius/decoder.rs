@@ -6,39 +6,39 @@ use super::layout::LayoutShape;
 use super::reply::{ReplyStart, acknowledgement};
 use super::{Layout, Reply, Status};
 
-/// Maximum length of noise that is reported in one piece.
+/// Max length of noise that the decoder reports in one piece, bytes.
 pub const MAX_NOISE_BYTES: usize = 256;
-/// Maximum of bytes that wait between two calls, as many as 56 status replies; more are
-/// lost.
+/// Max number of bytes that wait between two calls, as many as 56 status replies; the decoder loses
+/// more.
 const MAX_PENDING_BYTES: usize = 4096;
 
 /// Items found in a stream.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Received {
     Reply(Reply),
-    /// Bytes of no reply, 1 to [`MAX_NOISE_BYTES`]. Behind them the decoder is in step again.
+    /// Bytes of no reply, 1 to [`MAX_NOISE_BYTES`]. The decoder has found its place again after
+    /// them.
     Noise(Vec<u8>),
-    /// The status has another form than the ones before it. It is given up as noise; the next
-    /// one in this form is accepted.
+    /// A status in another form than the previous status. The decoder returns it as noise; it
+    /// accepts the next status in this form.
     LayoutChanged(Layout),
-    /// The stream began with `V` and a digit, like that of the maker's other products, which
-    /// then ask for a code.
+    /// A stream that begins with `V` and a digit, as on the maker's other products, which then
+    /// require a code.
     OtherProtocol,
 }
 
-/// Splits a byte stream into replies.
+/// Decoder of a byte stream into replies.
 ///
-/// Push the bytes that were read, then take items until `None`. The stream may be cut and
-/// merged anywhere. Call [`Self::idle`] when nothing has come for a while. Holds at most 4
-/// KiB.
+/// Push the bytes that were read, then take items until `None`. The stream may be cut and merged
+/// anywhere. Call [`Self::idle`] after a silence. The decoder buffers at most 4 KiB.
 #[derive(Debug, Default)]
 pub struct Decoder {
     pending: VecDeque<u8>,
-    /// Bytes were lost after the end of `pending`.
+    /// `true` if bytes were lost after the end of `pending`.
     has_overflowed: bool,
-    /// Bytes in front of `pending` that belong to no reply.
+    /// Bytes before `pending` that belong to no reply.
     noise: Vec<u8>,
-    /// The first bytes of the stream have been read.
+    /// `true` once the decoder has read the first bytes of the stream.
     has_begun: bool,
     /// Form of the last status.
     layout: Option<Layout>,
@@ -50,7 +50,7 @@ enum Front {
     OtherProtocol,
     LayoutChanged(Layout),
     Noise,
-    /// Undecided until more bytes come.
+    /// Undecided: more bytes have to come.
     Unfinished {
         /// Number of missing bytes, for a status that lacks only the end of its last name.
         missing_of_name: Option<usize>,
@@ -62,10 +62,10 @@ impl Decoder {
         Self::default()
     }
 
-    /// Takes bytes of the stream. Bytes that do not fit while nobody takes replies are lost,
-    /// together with the reply that they belong to.
+    /// Takes received bytes. Loses bytes that do not fit while the caller takes no replies,
+    /// together with their reply.
     pub fn push(&mut self, bytes: &[u8]) {
-        // Behind a gap, these bytes would be joined to half a reply in front of it.
+        // After a gap, the decoder would join these bytes to the half reply before the gap.
         if self.has_overflowed {
             return;
         }
@@ -74,21 +74,20 @@ impl Decoder {
         self.pending.extend(bytes.iter().take(room));
     }
 
-    /// Number of bytes that wait for the rest of their reply.
+    /// Returns the number of bytes that wait for the rest of their reply.
     pub fn unfinished_bytes(&self) -> usize {
         self.pending.len()
     }
 
-    /// Returns `true` if bytes that begin no reply wait to be handed out.
+    /// Returns `true` if bytes that begin no reply wait for the caller.
     pub fn has_noise(&self) -> bool {
         !self.noise.is_empty()
     }
 
-    /// Ends unfinished replies after nothing has come for a while (250 ms are plenty), and
-    /// returns the items left.
+    /// Ends unfinished replies after a silence (250 ms suffice), and returns the remaining items.
     ///
-    /// A status that lacks only the end of the last name is completed with blanks. Everything
-    /// else is noise, so that no reply is made of two halves.
+    /// The decoder completes with blanks a status that lacks only the end of the last name. All
+    /// other bytes become noise, so no reply consists of two halves.
     pub fn idle(&mut self) -> Vec<Received> {
         let mut items: Vec<_> = self.by_ref().collect();
         // The document's example of a status lacks the blanks of its last, empty name.
@@ -111,7 +110,7 @@ impl Decoder {
         let is_first = !self.has_begun;
         let bytes: &[u8] = self.pending.make_contiguous();
         match bytes {
-            // Later on, the same letters can only be noise.
+            // Later in the stream, the same letters can only be noise.
             [b'V'] if is_first => UNFINISHED,
             [b'V', digit, ..] if is_first && digit.is_ascii_digit() => Front::OtherProtocol,
             [b'|', b'h', ..] => match LayoutShape::decide(bytes) {
@@ -143,7 +142,8 @@ fn status(shape: LayoutShape, bytes: &[u8], length: usize, before: Option<Layout
     }
     let Some(whole) = bytes.get(..length) else {
         let missing = length - bytes.len();
-        // Blanks may stand for a name. Cut any earlier, a status would get invented numbers.
+        // Blanks may replace a part of the name. A status cut off earlier would get invented
+        // numbers.
         let is_name = missing <= shape.layout.name_length();
         return Front::Unfinished { missing_of_name: is_name.then_some(missing) };
     };
@@ -160,7 +160,7 @@ impl Iterator for Decoder {
                 return Some(self.take_noise());
             }
             let front = self.front();
-            // Noise goes out first, so that items keep the order of the stream.
+            // The decoder returns noise first, which keeps the items in the order of the stream.
             if !self.noise.is_empty() && !matches!(front, Front::Noise | Front::Unfinished { .. }) {
                 return Some(self.take_noise());
             }
@@ -168,7 +168,8 @@ impl Iterator for Decoder {
                 Front::Reply(reply, length) => {
                     self.has_begun = true;
                     self.pending.drain(..length);
-                    // A status of another form may be a shifted one, so the form is remembered.
+                    // The decoder remembers the form, because a status of another form may be a
+                    // shifted status.
                     if let Reply::Status(status) = &reply {
                         self.layout = Some(status.layout);
                     }
@@ -180,12 +181,13 @@ impl Iterator for Decoder {
                 }
                 Front::LayoutChanged(layout) => {
                     self.layout = None;
-                    // Skips the header, which would now pass for a first status.
+                    // The decoder skips the header, because it would now accept this status as a
+                    // first one.
                     self.give_up_one();
                     return Some(Received::LayoutChanged(layout));
                 }
                 Front::Noise => self.give_up_one(),
-                // The rest of this reply was lost. Waiting would join it to the next reply.
+                // The rest of this reply was lost. Waiting would join this part to the next reply.
                 Front::Unfinished { .. } if self.has_overflowed && !self.pending.is_empty() => {
                     self.give_up_one();
                 }

@@ -6,15 +6,14 @@ use super::ValueError;
 
 /// An angle of the protocol: whole degrees, 0 to 360.
 ///
-/// 360 is not folded into 0: on a mount with its stop in the north they can be opposite
-/// ends.
+/// 360 stays distinct from 0: on a mount with its stop in the north, they can be opposite ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct WholeDegrees(u16);
 
 impl WholeDegrees {
     pub const MAX: Self = Self(360);
 
-    /// `degrees` from 0 to 360.
+    /// Returns the angle of `degrees`, or an error outside 0 to 360.
     pub fn new(degrees: u16) -> Result<Self, ValueError> {
         Self::nearest(f64::from(degrees))
     }
@@ -26,7 +25,7 @@ impl WholeDegrees {
 
     /// Rounds `degrees`, which must be between 0 and 360.
     pub fn nearest(degrees: f64) -> Result<Self, ValueError> {
-        // This form refuses NaN too.
+        // This form also refuses NaN.
         if (0.0..=f64::from(Self::MAX.0)).contains(&degrees) {
             Ok(Self(degrees.round() as u16))
         } else {
@@ -38,16 +37,16 @@ impl WholeDegrees {
         self.0
     }
 
-    /// Three digits with leading zeros, as in the document's examples of commands.
+    /// Returns three digits with leading zeros, as in the document's examples of commands.
     pub(super) fn digits(self) -> String {
-        // A unit may count bytes: with fewer digits it would take bytes of the next request.
+        // A unit may count bytes: after fewer digits, it would take bytes of the next request.
         format!("{:03}", self.0)
     }
 
     /// Reads a field of a message.
     pub(super) fn parse(field: &[u8]) -> Option<Self> {
         let degrees = whole_number(field).and_then(|number| u16::try_from(number).ok())?;
-        // Section 1.0 writes 999 for a missing sensor or target, so it is no angle.
+        // Section 1.0 writes 999 for a missing sensor or target, so 999 is no angle.
         Self::new(degrees).ok()
     }
 }
@@ -76,7 +75,7 @@ pub(super) fn whole_number(field: &[u8]) -> Option<i16> {
     Some(digits.iter().fold(0, |number, digit| number * 10 + i16::from(digit - b'0')))
 }
 
-/// Like [`whole_number`], with a sign in front and blanks on either side of it.
+/// Reads a number like [`whole_number`], with an optional sign in front and blanks on either side.
 pub(super) fn signed_number(field: &[u8]) -> Option<i16> {
     match without_blanks(field) {
         [b'-', digits @ ..] => whole_number(digits).map(|number| -number),

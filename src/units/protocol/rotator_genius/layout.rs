@@ -6,15 +6,15 @@ use super::reply::ReplyStart;
 /// Form of a status: there are two.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Layout {
-    /// 72 bytes, by the list of fields in section 1.0. Units send this form.
+    /// 72 bytes, according to the list of fields in section 1.0. Units send this form.
     Wide,
-    /// 64 bytes, by the worked example in section 1.0, with offsets of 2 and names of 10
+    /// 64 bytes, according to the example in section 1.0, with offsets of 2 and names of 10
     /// characters.
     Narrow,
 }
 
 impl Layout {
-    /// Length of the field "Offset".
+    /// Returns the length of the field "Offset", bytes.
     pub(super) const fn offset_length(self) -> usize {
         match self {
             Self::Wide => 4,
@@ -22,7 +22,7 @@ impl Layout {
         }
     }
 
-    /// Length of the field "Name", the last of a rotator.
+    /// Returns the length of the field "Name", the last of a rotator, bytes.
     pub(super) const fn name_length(self) -> usize {
         match self {
             Self::Wide => 12,
@@ -30,13 +30,13 @@ impl Layout {
         }
     }
 
-    /// Length of all fields of one rotator.
+    /// Returns the length of all fields of one rotator, bytes.
     pub(super) const fn rotator_length(self) -> usize {
         18 + self.offset_length() + self.name_length()
     }
 }
 
-/// Length of `|h` and the bytes "Active" and "Panic".
+/// Length of `|h` and the bytes "Active" and "Panic", bytes.
 const HEADER_LENGTH: usize = 4;
 /// Index of "Configuration" among the fields of a rotator; "Moving" follows.
 const KIND_AT: usize = 9;
@@ -49,33 +49,34 @@ pub(super) struct LayoutShape {
 }
 
 impl LayoutShape {
-    /// Bytes in front of the first rotator.
+    /// Returns the number of bytes before the first rotator.
     pub(super) const fn header_length(self) -> usize {
         if self.has_panic_byte { HEADER_LENGTH } else { HEADER_LENGTH - 1 }
     }
 
-    /// Length of the whole status.
+    /// Returns the length of the whole status, bytes.
     pub(super) const fn length(self) -> usize {
         self.header_length() + 2 * self.layout.rotator_length()
     }
 
-    /// Shape of the status at the beginning of `bytes`, which begin with `|h`.
+    /// Returns the shape of the status at the beginning of `bytes`, which begin with `|h`.
     ///
     /// A status carries neither length nor version. The letters for the kind of the rotators
-    /// decide: in the other form digits and blanks stand at their places, and never names. A
-    /// text layer on the way may have swallowed the zero byte of "Panic", which moves all
-    /// places down by one.
+    /// decide: in the other form, these places contain digits and blanks, but never names. A text
+    /// layer on the way may have removed the zero byte of "Panic", which moves all places down by
+    /// one.
     pub(super) fn decide(bytes: &[u8]) -> ReplyStart<Self> {
         for has_panic_byte in [true, false] {
             let start = |layout| Self { layout, has_panic_byte }.header_length();
-            // The forms differ only behind the first motion, so one test of the first rotator
-            // serves both.
+            // The forms differ only after the first motion, so one test of the first rotator serves
+            // both.
             match has_rotator(bytes, start(Layout::Wide)) {
                 None => return ReplyStart::Unfinished,
                 Some(false) => continue,
                 Some(true) => {}
             }
-            // The narrow form needs fewer bytes to be ruled out: its second rotator begins earlier.
+            // The narrow form needs fewer bytes for a decision, because its second rotator begins
+            // earlier.
             for layout in [Layout::Narrow, Layout::Wide] {
                 match has_rotator(bytes, start(layout) + layout.rotator_length()) {
                     None => return ReplyStart::Unfinished,
@@ -91,8 +92,8 @@ impl LayoutShape {
     }
 }
 
-/// Returns `true` if the kind and the motion of a rotator are in their places with its fields at
-/// `index`; `None` if too few bytes have come to tell.
+/// Returns `true` if the bytes for kind and motion are valid for a rotator whose fields begin at
+/// `index`; `None` if too few bytes have come.
 fn has_rotator(bytes: &[u8], index: usize) -> Option<bool> {
     let kind = bytes.get(index + KIND_AT)?;
     let moving = bytes.get(index + KIND_AT + 1)?;

@@ -1,9 +1,9 @@
 //! Names of rotators: Latin-1 in fields of fixed length.
 
-/// Maximum length of a name in a configuration (section 1.1). A status has room for 12.
+/// Max length of a name in a configuration (section 1.1), bytes. A status has room for 12.
 pub const MAX_NAME_BYTES: usize = 10;
 
-/// Reason why a name cannot be carried.
+/// Reason why the protocol cannot carry a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NameProblem {
     #[error("is longer than {MAX_NAME_BYTES} characters")]
@@ -11,7 +11,7 @@ pub enum NameProblem {
     /// A character outside Latin-1, or one of its control characters.
     #[error("holds a character outside printable Latin-1")]
     NotPrintable,
-    /// A blank at an end, which the padding of the field would swallow.
+    /// A blank at an end, which would become part of the padding of the field.
     #[error("begins or ends with a blank")]
     OuterBlank,
 }
@@ -40,16 +40,17 @@ impl RotatorName {
         &self.0
     }
 
-    /// Exactly [`MAX_NAME_BYTES`] bytes, padded with blanks.
+    /// Returns exactly [`MAX_NAME_BYTES`] bytes, padded with blanks.
     pub(super) fn bytes(&self) -> impl Iterator<Item = u8> {
         let blanks = std::iter::repeat(b' ');
         self.0.chars().filter_map(|c| u8::try_from(c).ok()).chain(blanks).take(MAX_NAME_BYTES)
     }
 }
 
-/// Text of a name field without its padding: blanks and zero bytes at the ends.
+/// Returns the text of a name field without the blanks and zero bytes that pad its ends.
 pub(super) fn from_field(field: &[u8]) -> String {
-    // The document says "extended ASCII": each byte is a character, and UTF-8 would refuse some.
+    // The document says "extended ASCII", so each byte is a character. UTF-8 would refuse some
+    // bytes.
     let text: String = field.iter().map(|byte| char::from(*byte)).collect();
     text.trim_matches([' ', '\0']).to_owned()
 }

@@ -10,27 +10,27 @@ pub enum Reply {
     /// Reply to a command.
     Acknowledgement {
         request: Acknowledgement,
-        /// `K`, not `F`. An `F` never says why.
+        /// `true` for `K`, `false` for `F`. An `F` gives no reason.
         is_accepted: bool,
     },
 }
 
-/// Command that is acknowledged. The reply does not name the rotator.
+/// Command that the unit acknowledges. The reply does not name the rotator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Acknowledgement {
-    /// `|A`.
+    /// `|A`: a turn to an angle.
     GoTo {
         /// Target, if the reply has the longer form of the document's list and repeats a valid
-        /// one.
+        /// target.
         target: Option<WholeDegrees>,
     },
-    /// `|P`.
+    /// `|P`: a clockwise turn.
     RotateClockwise,
-    /// `|M`.
+    /// `|M`: a counter-clockwise turn.
     RotateCounterClockwise,
-    /// `|S`.
+    /// `|S`: a stop.
     Stop,
-    /// `|c`.
+    /// `|c`: a configuration.
     Configure,
 }
 
@@ -40,7 +40,7 @@ pub(super) enum ReplyStart<T> {
     /// An item, and its number of bytes.
     Whole(T, usize),
     Unknown,
-    /// Undecided until more bytes come.
+    /// Undecided: more bytes have to come.
     Unfinished,
 }
 
@@ -58,17 +58,18 @@ pub(super) fn acknowledgement(bytes: &[u8]) -> ReplyStart<Reply> {
     ended_by(bytes.get(2), short, 3)
 }
 
-/// Reads both forms: the document's list has 6 bytes, its example 3.
+/// Reads both forms: 6 bytes in the document's list, 3 in its example.
 fn go_to(bytes: &[u8]) -> ReplyStart<Reply> {
     let is_filler = |byte: &u8| byte.is_ascii_digit() || *byte == b' ';
     let field = bytes.get(2..5.min(bytes.len())).unwrap_or_default();
     match field {
         [] => ReplyStart::Unfinished,
-        // No length tells the forms apart, but no number begins with `K` or `F`.
+        // No length distinguishes the forms, but no number begins with `K` or `F`.
         [first, ..] if !is_filler(first) => {
             ended_by(Some(first), Acknowledgement::GoTo { target: None }, 3)
         }
-        // Given up before six bytes have come, so that a cut reply does not swallow the next one.
+        // The decoder gives up before six bytes have come, so a cut reply does not swallow the next
+        // reply.
         _ if !field.iter().all(is_filler) => ReplyStart::Unknown,
         _ => {
             let target = WholeDegrees::parse(field);

@@ -2,30 +2,29 @@
 
 use super::{Configuration, NameProblem, WholeDegrees};
 
-/// Any request of a client. Its values were checked when it was built, so encoding cannot
-/// fail.
+/// Any request of a client. Its values were checked at construction, so encoding cannot fail.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Request {
-    /// `|h`: reads everything without changing anything.
+    /// `|h`: a read of everything, which changes nothing.
     Read,
-    /// `|S`: stops both rotators; there is no stop for one.
+    /// `|S`: a stop of both rotators. The protocol has no stop for only one of them.
     Stop,
     Motion(Motion),
-    /// `|c`: changes the configuration of one rotator in the unit.
+    /// `|c`: a change of the configuration of one rotator in the unit.
     Configure(Configuration),
 }
 
-/// A request that can make metal move. Only the gate of the driver may encode one.
+/// A request that can move a rotator. Only the driver's gate may encode it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Motion {
-    /// `|A`: turn to an angle.
+    /// `|A`: a turn to an angle.
     GoTo {
         rotator: RotatorNumber,
-        /// Azimuth or elevation.
+        /// Target angle, azimuth or elevation.
         target: WholeDegrees,
     },
-    /// `|P` or `|M`: turn until stopped. Inside its limits the unit itself stops at the limit;
-    /// outside them only `|S` ends the motion.
+    /// `|P` or `|M`: a turn until stopped. A rotator inside its limits stops at the limit; outside
+    /// them only `|S` ends the motion.
     Rotate { rotator: RotatorNumber, direction: Direction },
 }
 
@@ -39,7 +38,7 @@ pub enum RotatorNumber {
 impl RotatorNumber {
     pub const ALL: [Self; 2] = [Self::One, Self::Two];
 
-    /// Rotator 1 or 2.
+    /// Returns rotator 1 or 2, or an error for any other number.
     pub fn new(number: u8) -> Result<Self, ValueError> {
         let found = Self::ALL.into_iter().find(|rotator_number| rotator_number.number() == number);
         found.ok_or(ValueError::Rotator(number))
@@ -52,7 +51,7 @@ impl RotatorNumber {
         }
     }
 
-    /// Item of `pair` that belongs to this rotator.
+    /// Returns the item of `pair` that belongs to this rotator.
     pub fn select<T>(self, pair: &[T; 2]) -> &T {
         let [one, two] = pair;
         match self {
@@ -61,7 +60,7 @@ impl RotatorNumber {
         }
     }
 
-    /// Mutable item of `pair` that belongs to this rotator.
+    /// Returns the mutable item of `pair` that belongs to this rotator.
     pub fn of_mut<T>(self, pair: &mut [T; 2]) -> &mut T {
         let [one, two] = pair;
         match self {
@@ -74,22 +73,22 @@ impl RotatorNumber {
 /// A sense of rotation, seen from above.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Direction {
-    /// To larger angles.
+    /// Rotation to larger angles.
     Clockwise,
-    /// To smaller angles.
+    /// Rotation to smaller angles.
     CounterClockwise,
 }
 
 /// Reason why a value cannot be sent.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ValueError {
-    /// Not rotator 1 or 2.
+    /// A number other than 1 or 2.
     #[error("rotator {0} is not 1 or 2")]
     Rotator(u8),
-    /// Not between 0 and 360, or not a number.
+    /// An angle outside 0 to 360, or not a number.
     #[error("angle {0} is not between 0 and 360 degrees")]
     Degrees(f64),
-    /// Not between 0 and 10.
+    /// A stop offset over 10 degrees.
     #[error("stop offset {0} is not between 0 and 10 degrees")]
     StopOffset(u8),
     #[error("the name {0}")]
@@ -97,7 +96,7 @@ pub enum ValueError {
 }
 
 impl Request {
-    /// Bytes to send in one piece. There is no terminator.
+    /// Returns the bytes to send in one piece. There is no terminator.
     pub fn to_bytes(&self) -> Vec<u8> {
         let text = match self {
             Self::Read => "|h".to_owned(),

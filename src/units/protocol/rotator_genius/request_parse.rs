@@ -1,4 +1,4 @@
-//! Requests read from bytes, as a unit or its simulator does.
+//! Decoding of requests from bytes, as a unit or its simulator does.
 
 use super::degrees::whole_number;
 use super::{
@@ -9,13 +9,13 @@ use super::{
 /// Reason why bytes are not a request.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum RequestError {
-    /// Not a command of the document.
+    /// A command that the document does not have.
     #[error("unknown request")]
     Unknown,
-    /// Wrong length for this command.
+    /// A wrong length for this command.
     #[error("{found} bytes instead of {expected}")]
     Length {
-        /// Bytes received.
+        /// Number of bytes received.
         found: usize,
         expected: usize,
     },
@@ -28,8 +28,8 @@ pub enum RequestError {
 }
 
 impl Request {
-    /// Length in bytes of the command with this letter, the bar included; `None` if the
-    /// document has no such command.
+    /// Returns the length in bytes of the command with this letter, including the bar; `None` if
+    /// the document has no such command.
     pub const fn length(letter: u8) -> Option<usize> {
         match letter {
             b'h' | b'S' => Some(2),
@@ -40,12 +40,11 @@ impl Request {
         }
     }
 
-    /// Reads one whole request. Numbers may have blanks on either side, as the document
-    /// allows.
+    /// Reads one whole request. Numbers may have blanks on either side, as the document allows.
     pub fn parse(bytes: &[u8]) -> Result<Self, RequestError> {
         let [b'|', letter, values @ ..] = bytes else { return Err(RequestError::Unknown) };
         let expected = Self::length(*letter).ok_or(RequestError::Unknown)?;
-        // Even a terminator is one byte too many: the document knows none.
+        // Even a terminator is one byte too many, because the document has none.
         if bytes.len() != expected {
             return Err(RequestError::Length { found: bytes.len(), expected });
         }
@@ -57,7 +56,7 @@ impl Request {
             b'A' => Self::Motion(Motion::GoTo { rotator, target: angle(values)? }),
             b'c' => Self::Configure(configuration(rotator, values)?),
             b'P' => Self::Motion(Motion::Rotate { rotator, direction: Direction::Clockwise }),
-            // Only `M` is left here, because `length` knows no further letter.
+            // Only `M` remains here, because `length` knows no further letter.
             _ => Self::Motion(Motion::Rotate { rotator, direction: Direction::CounterClockwise }),
         })
     }

@@ -9,10 +9,10 @@ use super::{Layout, RotatorNumber, WholeDegrees, name};
 pub struct Status {
     /// Form of the reply.
     pub layout: Layout,
-    /// No longer used, according to the document. Units send `2`.
+    /// Obsolete byte, according to the document. Units send `2`.
     pub active: u8,
-    /// Zero when all is well; other codes are not defined. `None` if the byte was lost on the
-    /// way.
+    /// Zero without a problem; the document defines no other codes. `None` if the byte was lost on
+    /// the way.
     pub panic: Option<u8>,
     pub rotators: [Rotator; 2],
 }
@@ -20,41 +20,41 @@ pub struct Status {
 /// State of one rotator.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Rotator {
-    /// Measured angle. The unit has added its offset already.
+    /// Measured angle. The unit has already added its offset.
     pub position: Result<WholeDegrees, NoPosition>,
-    /// End of the travel clockwise. The document's own example contradicts the natural
-    /// meaning, so no arc can be computed from both limits.
+    /// Clockwise end of the travel. The document's example contradicts the natural meaning, so no
+    /// arc can be computed from both limits.
     pub limit_cw: Option<WholeDegrees>,
-    /// End of the travel counter-clockwise.
+    /// Counter-clockwise end of the travel.
     pub limit_ccw: Option<WholeDegrees>,
     pub kind: RotatorKind,
-    /// Direction in which the rotator is driven, if it is.
+    /// Direction in which the unit drives the rotator, if it does.
     pub moving: Moving,
-    /// Magnetic declination and the like, degrees, as received; `None` if blank or unreadable.
-    /// Not the stop offset of a configuration.
+    /// Offset such as the magnetic declination, degrees, as received; `None` if blank or
+    /// unreadable. It is not the stop offset of a configuration.
     pub offset_deg: Option<i16>,
     /// Target angle; `None` without one.
     pub target: Option<WholeDegrees>,
-    /// Angle at which the rotator set out for the target.
+    /// Angle at which the rotator started towards the target.
     pub start: Option<WholeDegrees>,
     /// `true` if the rotator is outside its limits; `None` if the byte is unknown.
     pub is_outside_limits: Option<bool>,
     pub name: String,
 }
 
-/// Reason why there is no position.
+/// Reason why the status has no position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum NoPosition {
-    /// 999.
+    /// 999 in the field: no sensor.
     #[error("the sensor is not connected")]
     NoSensor,
-    /// Only blanks.
+    /// A field of blanks.
     #[error("no position is given")]
     Blank,
     /// A number over 360 other than 999.
     #[error("the position is over 360 degrees")]
     OutOfRange,
-    /// Not a number.
+    /// A field that is not a number.
     #[error("the position is not a number")]
     NotANumber,
 }
@@ -62,9 +62,9 @@ pub enum NoPosition {
 /// Angle that a rotator turns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum RotatorKind {
-    /// `A`.
+    /// `A` in the field.
     Azimuth,
-    /// `E`.
+    /// `E` in the field.
     Elevation,
 }
 
@@ -87,11 +87,11 @@ impl RotatorKind {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Moving {
-    /// `0`. The rotator may still coast.
+    /// `0` in the field. The rotator may still coast.
     Stopped,
-    /// `1`.
+    /// `1` in the field.
     Clockwise,
-    /// `2`.
+    /// `2` in the field.
     CounterClockwise,
 }
 
@@ -125,7 +125,7 @@ impl Rotator {
             position: position(field(3)?),
             limit_cw: WholeDegrees::parse(field(3)?),
             limit_ccw: WholeDegrees::parse(field(3)?),
-            // The kind and the motion frame the status. Another value means that it is out of step.
+            // Kind and motion frame the status. Another value shows that the bytes are shifted.
             kind: RotatorKind::from_letter(*field(1)?.first()?)?,
             moving: match field(1)? {
                 b"0" => Moving::Stopped,
@@ -136,12 +136,12 @@ impl Rotator {
             offset_deg: signed_number(field(layout.offset_length())?),
             target: WholeDegrees::parse(field(3)?),
             start: WholeDegrees::parse(field(3)?),
-            // The document has digits, but units send a zero byte.
+            // The document lists digits, but units send a zero byte.
             is_outside_limits: match field(1)? {
                 [0] | b"0" | b" " => Some(false),
                 [1] | b"1" => Some(true),
-                // Not taken for inside: outside its limits a rotator turns until `|S` comes
-                // (section 1.3).
+                // An unknown byte does not count as inside: outside its limits, a rotator turns
+                // until `|S` (section 1.3).
                 _ => None,
             },
             name: name::from_field(field(layout.name_length())?),
@@ -153,7 +153,7 @@ fn position(field: &[u8]) -> Result<WholeDegrees, NoPosition> {
     WholeDegrees::parse(field).ok_or_else(|| match without_blanks(field) {
         b"999" => NoPosition::NoSensor,
         b"" => NoPosition::Blank,
-        // Only 999 has a meaning over 360, so any other number must not pass for a loose sensor.
+        // Over 360, only 999 has a meaning, so no other number may count as a missing sensor.
         digits if digits.iter().all(u8::is_ascii_digit) => NoPosition::OutOfRange,
         _ => NoPosition::NotANumber,
     })

@@ -3,7 +3,7 @@
 use super::{Motion, Position, Request, Sense, Speed, position::number};
 use crate::protocol::rotctld::ErrorCode;
 
-/// A line of a client: what it asks, and how it wants the answer.
+/// A line of a client: the request and the form of its answer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Command {
     pub format: Format,
@@ -14,14 +14,14 @@ pub struct Command {
 /// Form of an answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Format {
-    /// Values alone, one a line.
+    /// Only values, one on each line.
     Plain,
     /// The extended response protocol: the command with its arguments, then records with names,
     /// then the code.
     Extended {
-        /// Between records: a line feed for `+`, or the character before the command.
+        /// Separator of records: a line feed for `+`, else the character before the command.
         separator: char,
-        /// Long name and arguments.
+        /// Long name and arguments of the command.
         echo: String,
     },
 }
@@ -43,7 +43,7 @@ const SET_POSITION: (&str, char) = ("set_pos", 'P');
 const MOVE: (&str, char) = ("move", 'M');
 
 impl Command {
-    /// Command of a line; `None` for an empty line and a comment, which get no answer.
+    /// Returns the command of a line; `None` for an empty line and a comment, which get no answer.
     pub fn parse(line: &str) -> Option<Self> {
         let line = line.trim();
         let separator = line.chars().next().filter(|first| is_separator(*first));
@@ -70,13 +70,13 @@ impl Command {
     }
 }
 
-/// Returns `true` for a character before a command that asks for the extended protocol.
+/// Returns `true` for a character before a command that requests the extended protocol.
 fn is_separator(first: char) -> bool {
     first.is_ascii_punctuation() && !['\\', '_', '#'].contains(&first)
 }
 
-/// Name and arguments of a command. A name is a letter or a long name, with or without `\`:
-/// Hamlib wants it, but people and some programs leave it out.
+/// Returns the name and arguments of a command. A name is a letter or a long name, with or without
+/// `\`: Hamlib requires it, but people and some programs omit it.
 fn split(rest: &str) -> (&str, Vec<&str>) {
     let is_long = |word: &str| {
         let mut names = WITHOUT_ARGUMENTS.iter().map(|(name, ..)| *name);
@@ -90,7 +90,7 @@ fn split(rest: &str) -> (&str, Vec<&str>) {
     if is_long(first) {
         return (first, words.collect());
     }
-    // A letter ends where the next character begins: `P10 20` is the same as `P 10 20`.
+    // A letter ends before the next character: `P10 20` is the same as `P 10 20`.
     let end = first.chars().next().map_or(0, char::len_utf8);
     let (name, glued) = first.split_at(end);
     let glued = Some(glued).filter(|glued| !glued.is_empty());
@@ -107,7 +107,7 @@ fn long_name(name: &str) -> &str {
     names.find(|called| is_called(name, *called)).map_or(name, |(long, _)| long)
 }
 
-/// Request of a name and its arguments; surplus arguments are ignored.
+/// Returns the request of a name and its arguments; ignores surplus arguments.
 fn request(name: &str, arguments: &[&str]) -> Result<Request, ErrorCode> {
     if is_called(name, SET_POSITION) {
         let [azimuth, elevation, ..] = arguments else { return Err(ErrorCode::INVALID) };
@@ -121,7 +121,7 @@ fn request(name: &str, arguments: &[&str]) -> Result<Request, ErrorCode> {
     if is_called(name, MOVE) {
         let [sense, speed, ..] = arguments else { return Err(ErrorCode::INVALID) };
         let sense = Sense::parse(sense).ok_or(ErrorCode::INVALID)?;
-        // -1 leaves the speed unchanged.
+        // The value -1 leaves the speed unchanged.
         let speed = match speed.parse::<i16>().map_err(|_| ErrorCode::INVALID)? {
             -1 => None,
             speed => {
@@ -152,7 +152,8 @@ mod tests {
 
     #[test]
     fn positions_of_all_clients_are_read() {
-        // Gpredict, libhamlib, SkyRoof, SatNOGS, a comma of a locale, Look4Sat, `nc` by hand.
+        // These lines come from Gpredict, libhamlib, SkyRoof, SatNOGS, a comma of a locale,
+        // Look4Sat and `nc` by hand.
         for (line, azimuth_deg, elevation_deg) in [
             ("P 180.00 45.00", 180.0, 45.0),
             ("P 163.000000 41.000000", 163.0, 41.0),
@@ -221,7 +222,7 @@ mod tests {
         assert_eq!(format("+P 90 45"), extended('\n', "set_pos: 90 45"));
         assert_eq!(format("+\\set_pos 90.5 45"), extended('\n', "set_pos: 90.5 45"));
         assert_eq!(format("+_"), extended('\n', "get_info:"));
-        // It is no request for help.
+        // The line does not count as a request for help.
         assert_eq!(format("?p"), extended('?', "get_pos:"));
         assert_eq!(Command::parse("+x").unwrap().request, Err(ErrorCode::NOT_IMPLEMENTED));
     }

@@ -7,21 +7,21 @@ use std::fmt;
 pub struct ErrorCode(i32);
 
 impl ErrorCode {
-    /// A parameter is no number, or outside of the range of the antenna.
-    // Hamlib has -21 for a limit since 4.6, but SDRangel 7 looks its text up in a list of 18.
+    /// A parameter that is not a number, or is outside the range of the antenna.
+    // Hamlib uses -21 for a limit since 4.6, but SDRangel 7 looks up the text in a list of 18.
     pub const INVALID: Self = Self(1);
-    /// The server does not know the command.
+    /// A command that the server does not know.
     pub const NOT_IMPLEMENTED: Self = Self(4);
-    /// There is no current position.
+    /// A missing current position.
     pub const TIMED_OUT: Self = Self(5);
-    /// The rotator does not answer the server.
+    /// A rotator that does not answer the server.
     pub const IO: Self = Self(6);
-    /// The antenna may not be moved by this client, now.
+    /// A motion that this client may not start now.
     pub const REJECTED: Self = Self(9);
-    /// The antenna has no such function.
+    /// A function that the antenna does not have.
     pub const NOT_AVAILABLE: Self = Self(11);
 
-    /// Code of the number after `RPRT`; `None` for success.
+    /// Returns the code of the number after `RPRT`; `None` for success.
     pub const fn from_report(number: i32) -> Option<Self> {
         match number.checked_abs() {
             Some(0) => None,
@@ -30,12 +30,12 @@ impl ErrorCode {
         }
     }
 
-    /// Number after `RPRT`, negative.
+    /// Returns the number after `RPRT`, negative.
     pub const fn report(self) -> i32 {
         -self.0
     }
 
-    /// Meaning by Hamlib's list.
+    /// Returns the meaning according to Hamlib's list.
     const fn meaning(self) -> Option<&'static str> {
         Some(match self.0 {
             1 => "invalid parameter",
@@ -82,7 +82,7 @@ mod tests {
     fn a_report_of_zero_is_no_error() {
         assert_eq!(ErrorCode::from_report(0), None);
         assert_eq!(ErrorCode::from_report(-9), Some(ErrorCode::REJECTED));
-        // The sign was missing in some releases of Hamlib.
+        // Some releases of Hamlib omitted the sign.
         assert_eq!(ErrorCode::from_report(9), Some(ErrorCode::REJECTED));
         assert_eq!(ErrorCode::from_report(i32::MIN).unwrap().report(), -i32::MAX);
     }

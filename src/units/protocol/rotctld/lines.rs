@@ -1,19 +1,19 @@
-//! Cuts a stream of bytes into lines.
+//! Conversion of a stream of bytes to lines.
 
-/// Longest line, bytes. Hamlib takes arguments of up to 127 characters.
+/// Max length of a line, bytes. Hamlib takes arguments of up to 127 characters.
 pub const MAX_LINE_BYTES: usize = 512;
 
 /// One line, without its end.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Line {
-    /// Printable ASCII.
+    /// A line of printable ASCII.
     Text(String),
-    /// A line that was longer than [`MAX_LINE_BYTES`]; nothing of it is kept.
+    /// A line longer than [`MAX_LINE_BYTES`], which is dropped as a whole.
     TooLong,
 }
 
-/// Collects bytes until a line feed. Carriage returns, zero bytes and all else that is not
-/// printable ASCII is dropped, so that a telnet client can talk to a server.
+/// Collector of bytes until a line feed. It drops carriage returns, zero bytes and all other bytes
+/// except printable ASCII, so a telnet client can talk to a server.
 #[derive(Debug, Default)]
 pub struct Lines {
     pending: String,
@@ -42,7 +42,7 @@ impl Lines {
         if std::mem::take(&mut self.is_too_long) { Line::TooLong } else { Line::Text(text) }
     }
 
-    /// Ends the line that still waits for its line feed; `None` if nothing waits.
+    /// Ends the line that still waits for its line feed; `None` without such a line.
     pub fn flush(&mut self) -> Option<Line> {
         (!self.pending.is_empty()).then(|| self.end())
     }

@@ -1,6 +1,6 @@
 //! Positions and limits, in degrees.
 
-/// A position of both axes, degrees, finite. The range is a matter of the rotator.
+/// A finite position of both axes, degrees. The range depends on the rotator.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Position {
     azimuth_deg: f64,
@@ -13,7 +13,7 @@ pub struct Position {
 pub struct PositionError(f64);
 
 impl Position {
-    /// A position at these angles, degrees.
+    /// Returns a position at these angles, degrees; an error for an angle that is not finite.
     pub fn new(azimuth_deg: f64, elevation_deg: f64) -> Result<Self, PositionError> {
         match [azimuth_deg, elevation_deg].into_iter().find(|angle| !angle.is_finite()) {
             Some(angle) => Err(PositionError(angle)),
@@ -30,9 +30,9 @@ impl Position {
     }
 }
 
-/// Number of an argument or an answer; `None` for text that is no finite number.
+/// Returns the number of an argument or an answer; `None` unless the text is a finite number.
 pub(super) fn number(text: &str) -> Option<f64> {
-    // Gpredict writes numbers by the locale of its user, so the decimal sign may be a comma.
+    // Gpredict writes numbers in the locale of its user, so the decimal sign may be a comma.
     let number: f64 = text.replace(',', ".").parse().ok()?;
     number.is_finite().then_some(number)
 }

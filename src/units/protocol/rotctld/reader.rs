@@ -1,16 +1,16 @@
-//! Reads the answers of a server, as a client.
+//! Reading of a server's answers, as a client.
 
 use std::collections::HashSet;
 
 use super::{ErrorCode, Limits, Line, Position, Request, StatusWord, position::number};
 
-/// Most lines of an answer to `\dump_state`.
+/// Max number of lines in an answer to `\dump_state`.
 pub const MAX_STATE_LINES: usize = 32;
 
 /// A complete answer.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Answer {
-    /// The server accepted the command; the rotator may still move.
+    /// Acceptance of the command; the rotator may still move.
     Done,
     Error(ErrorCode),
     Position(Position),
@@ -20,8 +20,8 @@ pub enum Answer {
     State(Option<Limits>),
 }
 
-/// A line that does not belong to the answer of the request. After it nothing on the connection
-/// can be trusted, since answers carry no name of their request.
+/// A line that does not belong to the answer of the request. After such a line, the client cannot
+/// trust the connection, because answers do not name their request.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum UnreadableAnswer {
     #[error("the answer {line:?} is not one to the request")]
@@ -32,7 +32,7 @@ pub enum UnreadableAnswer {
     ManyLines,
 }
 
-/// Reads the answer to one request, line by line.
+/// Reader of the answer to one request, line by line.
 #[derive(Debug, Clone)]
 pub struct Reader {
     request: Request,
@@ -40,7 +40,7 @@ pub struct Reader {
 }
 
 impl Reader {
-    /// Reader of the answer to `request`.
+    /// Returns a reader of the answer to `request`.
     pub fn new(request: Request) -> Self {
         Self { request, lines: Vec::new() }
     }
@@ -57,7 +57,7 @@ impl Reader {
             Request::Info => Ok(self.lines.pop().map(Answer::Info)),
             Request::Status => Ok(self.lines.pop().map(|words| Answer::Status(status(&words)))),
             Request::State => self.state(),
-            // The list for people ends with a code; nothing of it is kept.
+            // The list for people ends with a code; the reader keeps none of its lines.
             Request::Capabilities => {
                 self.lines.clear();
                 Ok(None)
@@ -66,7 +66,7 @@ impl Reader {
         }
     }
 
-    /// A code ends an answer. To a question, success alone is no answer.
+    /// Ends an answer at its code. Success alone does not answer a question.
     fn reported(&self, code: i32, line: String) -> Result<Answer, UnreadableAnswer> {
         match (ErrorCode::from_report(code), self.request) {
             (Some(_), _) if !self.lines.is_empty() => Err(UnreadableAnswer::Line { line }),
@@ -95,7 +95,8 @@ impl Reader {
         position.map(|position| Some(Answer::Position(position))).ok_or_else(|| self.unreadable())
     }
 
-    /// Version 1 has keys and values until `done`; version 0 has a model and four numbers.
+    /// Reads the state: version 1 has keys and values until `done`, version 0 a model and four
+    /// numbers.
     fn state(&mut self) -> Result<Option<Answer>, UnreadableAnswer> {
         if self.lines.len() > MAX_STATE_LINES {
             return Err(UnreadableAnswer::ManyLines);
@@ -126,7 +127,7 @@ impl Reader {
     }
 }
 
-/// Limits of the four numbers, if they make ranges.
+/// Returns the limits of the four numbers, if they make ranges.
 fn limits(numbers: [Option<f64>; 4]) -> Option<Limits> {
     let [Some(min_az), Some(max_az), Some(min_el), Some(max_el)] = numbers else { return None };
     (min_az < max_az && min_el <= max_el).then_some(Limits {
@@ -137,12 +138,12 @@ fn limits(numbers: [Option<f64>; 4]) -> Option<Limits> {
     })
 }
 
-/// Number of a line such as `RPRT -1`.
+/// Returns the number of a line such as `RPRT -1`.
 fn report(line: &str) -> Option<i32> {
     line.strip_prefix("RPRT ")?.trim().parse().ok()
 }
 
-/// Words of a status that are known.
+/// Returns the known words of a status.
 fn status(words: &str) -> Vec<StatusWord> {
     let read = |word: &str| StatusWord::ALL.into_iter().find(|status| status.word() == word);
     let mut words: Vec<StatusWord> = words.split_whitespace().filter_map(read).collect();
@@ -194,7 +195,7 @@ mod tests {
             assert_eq!(read(request, "RPRT 0\n"), Ok(Some(Answer::Done)));
             let refused = Answer::Error(ErrorCode::REJECTED);
             assert_eq!(read(request, "RPRT -9\n"), Ok(Some(refused)));
-            // A position that comes late is the answer to an earlier request.
+            // A late position answers an earlier request.
             assert!(is_unreadable(request, "90.00\n"));
             assert!(is_unreadable(request, "RPRT\n"));
         }

@@ -5,11 +5,11 @@ use super::{Command, ErrorCode, Format, Limits, Position, StatusWord};
 /// The answer to a command.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reply {
-    /// The command is carried out, or accepted.
+    /// Success: the server has carried out or accepted the command.
     Done,
     Error(ErrorCode),
     Position(Position),
-    /// Name of the rotator, at most [`Reply::MAX_NAME`] characters of it.
+    /// Name of the rotator, of which the server sends at most [`Reply::MAX_NAME`] characters.
     Info(String),
     Status(Vec<StatusWord>),
     State(Limits),
@@ -20,10 +20,12 @@ pub enum Reply {
 }
 
 impl Reply {
-    /// `HamClock` takes less than 50 bytes of the answer to `get_info`, with its own names.
+    /// Max length of a name, characters. `HamClock` takes less than 50 bytes of the answer to
+    /// `get_info`, including the names that it adds.
     pub const MAX_NAME: usize = 24;
 
-    /// Text to send in one piece, for clients such as Gpredict read each answer at once.
+    /// Returns the text to send in one piece, because clients such as Gpredict read each answer at
+    /// once.
     pub fn to_text(&self, command: &Command) -> String {
         match &command.format {
             Format::Plain => self.plain(),
@@ -33,7 +35,7 @@ impl Reply {
 
     fn plain(&self) -> String {
         let mut records = self.records(false);
-        // Values stand alone, but for the list of capabilities.
+        // Values come without a code, except the list of capabilities.
         if records.is_empty() || matches!(self, Self::Capabilities { .. }) {
             records.push(self.report());
         }
@@ -46,7 +48,7 @@ impl Reply {
             text.push_str(&record);
             text.push(separator);
         }
-        // The end is a line feed whatever the separator.
+        // A line feed ends the answer with any separator.
         text + &self.report() + "\n"
     }
 
@@ -55,7 +57,7 @@ impl Reply {
         format!("RPRT {code}")
     }
 
-    /// Values, with their names for the extended protocol.
+    /// Returns the values, with their names for the extended protocol.
     fn records(&self, are_named: bool) -> Vec<String> {
         let named = |name: &str, value: String| {
             if are_named { format!("{name}: {value}") } else { value }
@@ -77,8 +79,8 @@ impl Reply {
     }
 }
 
-/// The version that libhamlib reads as keys and values until `done`, and a number for the model,
-/// which clients ignore.
+/// Returns the version that libhamlib reads as keys and values until `done`, a model number, which
+/// clients ignore, and the limits.
 fn state(limits: Limits, are_named: bool) -> Vec<String> {
     let angle = |key: &str, name: &str, angle_deg: f64| {
         if are_named { format!("{name}: {angle_deg:.6}") } else { format!("{key}={angle_deg:.6}") }
@@ -101,7 +103,8 @@ fn state(limits: Limits, are_named: bool) -> Vec<String> {
     ]
 }
 
-/// The lines of rotctld's list that clients read: `HamClock` and cqrlog look for the limits.
+/// Returns the lines of rotctld's list that clients read: `HamClock` and cqrlog look for the
+/// limits.
 fn capabilities(name: &str, limits: Limits) -> Vec<String> {
     vec![
         "Caps dump for model:\t1".to_owned(),
@@ -115,7 +118,7 @@ fn capabilities(name: &str, limits: Limits) -> Vec<String> {
     ]
 }
 
-/// A name as ASCII, on one line.
+/// Returns a name as ASCII, on one line.
 fn short(name: &str) -> String {
     let letters = name.chars().map(|letter| match letter {
         ' '..='~' => letter,
@@ -124,7 +127,7 @@ fn short(name: &str) -> String {
     letters.take(Reply::MAX_NAME).collect()
 }
 
-/// An angle with two places, without a sign of zero. `SDRangel` needs the decimal point.
+/// Returns an angle with two places, without a sign of zero. `SDRangel` needs the decimal point.
 fn two_places(angle_deg: f64) -> String {
     let text = format!("{angle_deg:.2}");
     if text == "-0.00" { "0.00".to_owned() } else { text }
@@ -145,7 +148,7 @@ mod tests {
         max_elevation_deg: 90.0,
     };
 
-    // The bytes are those that rotctld 4.5.4 sent.
+    // The expected bytes come from rotctld 4.5.4.
 
     #[test]
     fn plain_answers_are_those_of_rotctld() {

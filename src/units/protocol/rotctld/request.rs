@@ -2,7 +2,7 @@
 
 use super::Position;
 
-/// Any request of a client. Its values were checked when it was built, so encoding cannot fail.
+/// Any request of a client. Its values were checked at construction, so encoding cannot fail.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Request {
     /// `\dump_state`: protocol version and limits.
@@ -11,25 +11,25 @@ pub enum Request {
     Capabilities,
     /// `\get_info`: name of the rotator.
     Info,
-    /// `\get_pos`
+    /// `\get_pos`: current position.
     Position,
-    /// `\get_status`: words for what moves, and for limits that are reached.
+    /// `\get_status`: words for moving axes and for reached limits.
     Status,
-    /// `\stop`
+    /// `\stop`: stop of all motion.
     Stop,
     Motion(Motion),
-    /// `q`: the server closes the connection without an answer.
+    /// `q`: the end of the connection, without an answer.
     Quit,
 }
 
-/// A request that can make metal move. Only the gate of the driver may encode one.
+/// A request that can move the antenna. Only the driver's gate may encode it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion {
-    /// `\set_pos`: turn to a position.
+    /// `\set_pos`: a turn to a position.
     GoTo(Position),
-    /// `\park`: turn to the park position of the rotator.
+    /// `\park`: a turn to the park position of the rotator.
     Park,
-    /// `\move`: turn until stopped.
+    /// `\move`: a turn until stopped.
     Turn { sense: Sense, speed: Option<Speed> },
 }
 
@@ -59,7 +59,7 @@ impl Sense {
         Self::DownRight,
     ];
 
-    /// Number in the protocol: a bit for each sense.
+    /// Returns the number in the protocol: one bit for each sense.
     pub const fn number(self) -> u16 {
         match self {
             Self::Up => 2,
@@ -73,7 +73,7 @@ impl Sense {
         }
     }
 
-    /// Words for it, in capitals.
+    /// Returns the words for the sense, in capitals.
     const fn words(self) -> &'static [&'static str] {
         match self {
             Self::Up => &["UP"],
@@ -87,7 +87,7 @@ impl Sense {
         }
     }
 
-    /// Sense of an argument: a number or a word of any case.
+    /// Returns the sense of an argument: a number or a word of any case.
     pub(super) fn parse(text: &str) -> Option<Self> {
         let is_meant = |sense: &Self| {
             text.parse() == Ok(sense.number())
@@ -96,7 +96,7 @@ impl Sense {
         Self::ALL.into_iter().find(is_meant)
     }
 
-    /// Signs of the rates of azimuth and elevation.
+    /// Returns the signs of the rates of azimuth and elevation.
     pub const fn signs(self) -> [f64; 2] {
         match self {
             Self::Up => [0.0, 1.0],
@@ -111,12 +111,12 @@ impl Sense {
     }
 }
 
-/// Speed of `\move`, 1 to 100 per cent of the greatest.
+/// Speed of `\move`, 1 to 100 per cent of the max speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Speed(u8);
 
 impl Speed {
-    /// A speed in per cent; `None` if it is not from 1 to 100.
+    /// Returns a speed in per cent; `None` outside 1 to 100.
     pub fn new(per_cent: u8) -> Option<Self> {
         (1..=100).contains(&per_cent).then_some(Self(per_cent))
     }
@@ -147,7 +147,7 @@ impl StatusWord {
 }
 
 impl Request {
-    /// Bytes to send in one piece.
+    /// Returns the bytes to send in one piece.
     pub fn to_bytes(self) -> Vec<u8> {
         let text = match self {
             Self::State => "\\dump_state\n".to_owned(),

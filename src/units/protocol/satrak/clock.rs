@@ -6,7 +6,7 @@ use jiff::tz::TimeZone;
 use super::ValueError;
 use super::fields::{FieldError, FrameFields, time_values};
 
-/// A clock that shows an earlier year was never set: the unit starts in 2000.
+/// First year of a clock that was set: an unset unit starts in 2000.
 const FIRST_PLAUSIBLE_YEAR: i16 = 2010;
 
 /// Reply to `TIME?`.
@@ -14,7 +14,7 @@ const FIRST_PLAUSIBLE_YEAR: i16 = 2010;
 pub struct UnitTime {
     /// Time of the unit's clock, UTC.
     pub time: Timestamp,
-    /// The reply had milliseconds. The document lists them but leaves them out of its example.
+    /// `true` if the reply had milliseconds. The document lists them but omits them in its example.
     pub has_milliseconds: bool,
 }
 
@@ -36,12 +36,12 @@ impl UnitTime {
 pub struct ClockTime(Timestamp);
 
 impl ClockTime {
-    /// Cuts `time` to its second. The year must be between 2000 and 2099.
+    /// Rounds `time` down to its second. Returns an error for a year outside 2000 to 2099.
     pub fn new(time: Timestamp) -> Result<Self, ValueError> {
         whole_second(time).map(Self)
     }
 
-    /// UTC, a whole second.
+    /// Returns UTC, a whole second.
     pub fn time(self) -> Timestamp {
         self.0
     }
@@ -89,9 +89,9 @@ pub struct TrackWindow {
 }
 
 impl TrackWindow {
-    /// Cuts both times to their second. The years must be between 2000 and 2099.
+    /// Rounds both times down to their second. Returns an error for a year outside 2000 to 2099.
     pub fn new(start: Timestamp, stop: Timestamp) -> Result<Self, ValueError> {
-        // Cut first: two times within one second would make a window without a length.
+        // Rounding comes first: two times within one second would make a window without a length.
         let (start, stop) = (whole_second(start)?, whole_second(stop)?);
         if stop <= start {
             return Err(ValueError::StopBeforeStart);
@@ -99,12 +99,12 @@ impl TrackWindow {
         Ok(Self { start, stop })
     }
 
-    /// Start of tracking, UTC, a whole second.
+    /// Returns the start of tracking, UTC, a whole second.
     pub fn start(self) -> Timestamp {
         self.start
     }
 
-    /// End of tracking, UTC, a whole second.
+    /// Returns the end of tracking, UTC, a whole second.
     pub fn stop(self) -> Timestamp {
         self.stop
     }
@@ -131,7 +131,7 @@ impl TimedPosition {
         Ok(Self {
             x_deg: fields.decimal(1)?,
             y_deg: fields.decimal(2)?,
-            // Unlike section 8, section 17 has milliseconds in its example too.
+            // Section 17 has milliseconds in its example too, unlike section 8.
             time: fields.time_with_ms(3)?,
         })
     }

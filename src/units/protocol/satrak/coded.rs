@@ -1,7 +1,6 @@
 //! Enums that are numbers on the wire.
 
-/// Declares an enum with a number for each variant. Numbers without a meaning are kept as
-/// `Unknown`.
+/// Declares an enum with a number for each variant. `Unknown` keeps a number without a meaning.
 macro_rules! coded {
     ($(#[$about:meta])* $name:ident { $($(#[$doc:meta])* $variant:ident = $code:literal,)* }) => {
         $(#[$about])*
@@ -16,7 +15,7 @@ macro_rules! coded {
             pub const fn from_code(code: i64) -> Self {
                 match code {
                     $($code => Self::$variant,)*
-                    // One unexplained number must not cost all other values of a reply.
+                    // One unexplained number must not invalidate all other values of a reply.
                     other => Self::Unknown(other),
                 }
             }

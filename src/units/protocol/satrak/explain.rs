@@ -8,10 +8,10 @@ use names::{Named, NamedFields};
 /// One value of a frame.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Value {
-    /// Position in the frame, counted from 1 as the document does.
+    /// Position in the frame, counted from 1 as in the document.
     pub number: usize,
     pub name: &'static str,
-    /// Text in the frame, without the blanks around it.
+    /// Text in the frame, without surrounding blanks.
     pub raw: String,
     /// Unit of measure; empty if the value is not a number.
     pub unit: &'static str,
@@ -22,7 +22,8 @@ pub struct Value {
 /// Explains a frame that was sent to a unit.
 pub fn explain_request(frame: &Frame) -> Vec<Value> {
     match frame.command() {
-        // Hidden as a whole: a comma in the password would spread it over several values.
+        // The explanation hides all values: a comma in the password would spread it over several
+        // values.
         Some((Word::SatelliteFtp, Verb::Set)) => vec![hidden()],
         Some((word, Verb::Set)) => explain(frame, names::of_setting(word)),
         _ => explain(frame, NamedFields::NONE),
@@ -33,7 +34,7 @@ pub fn explain_request(frame: &Frame) -> Vec<Value> {
 pub fn explain_reply(frame: &Frame) -> Vec<Value> {
     let is_error = frame.fields().first().is_some_and(|field| field == "ERR");
     match frame.command() {
-        // The form of a failed query is not stated, so ERR is looked for after any sign.
+        // The document does not state the form of a failed query, so ERR may follow any sign.
         _ if is_error => explain(frame, names::REFUSAL),
         Some((_, Verb::Set)) => explain(frame, names::ANSWER),
         Some((Word::SatelliteFtp, Verb::Query)) => vec![hidden()],
@@ -42,7 +43,7 @@ pub fn explain_reply(frame: &Frame) -> Vec<Value> {
     }
 }
 
-/// Name of fault `number` in the answer to `ERRSTATUS?`, counted from 1.
+/// Returns the name of fault `number` in the answer to `ERRSTATUS?`, counted from 1.
 pub(super) fn fault_name(number: usize) -> &'static str {
     let named = names::of_reply(Word::ErrStatus).named;
     number
@@ -51,7 +52,7 @@ pub(super) fn fault_name(number: usize) -> &'static str {
         .map_or(names::UNKNOWN, |named| named.name)
 }
 
-/// Placeholder for all values of a frame that holds a password.
+/// Returns the placeholder for all values of a frame that contains a password.
 fn hidden() -> Value {
     let raw = HIDDEN.to_owned();
     Value { number: 1, name: "values with a password", raw, unit: "", stands_for: "" }
@@ -70,7 +71,7 @@ fn explain(frame: &Frame, names: NamedFields) -> Vec<Value> {
             Value {
                 number: index + 1,
                 name: named.name,
-                // `NONE` and `?` stand where an angle could, and a unit behind them would be wrong.
+                // `NONE` and `?` may replace an angle; a unit after them would be wrong.
                 unit: if code.is_some() { "" } else { named.unit },
                 stands_for: code.map_or("", |(_, word)| word),
                 raw,
@@ -79,7 +80,7 @@ fn explain(frame: &Frame, names: NamedFields) -> Vec<Value> {
         .collect()
 }
 
-/// Texts of the values; one that may hold commas stays in one piece.
+/// Returns the texts of the values; a value that may contain commas stays in one piece.
 fn raw_values(frame: &Frame, names: NamedFields) -> Vec<String> {
     let fields = frame.fields();
     let whole = names.text_at.and_then(|before| {

@@ -9,13 +9,13 @@ pub enum FaultKind {
     /// No communication between control unit and drive unit.
     InternalLink,
     TleOutdated,
-    /// The file with the elements was not found.
+    /// A missing file with the elements.
     TleMissing,
-    /// The satellite was not found in the file.
+    /// A satellite that the file does not contain.
     SatelliteMissing,
-    /// The elements could not be read from the web.
+    /// Elements that the unit could not read from the web.
     WebTle,
-    /// An error stopped tracking.
+    /// An error that stopped tracking.
     TrackingStopped,
     Setup,
     XMotor,
@@ -24,7 +24,7 @@ pub enum FaultKind {
     XSensor,
     /// Position sensor of the Y axis.
     YSensor,
-    /// The GPS receiver does not answer.
+    /// A GPS receiver that does not answer.
     GpsLink,
 }
 
@@ -45,18 +45,18 @@ impl FaultKind {
         Self::GpsLink,
     ];
 
-    /// Number in the document, 1 to 12.
+    /// Returns the number in the document, 1 to 12.
     pub const fn index(self) -> usize {
         self as usize + 1
     }
 
-    /// Returns `true` if the fault is only a warning: the antenna can do its work. Azel's own
-    /// classification.
+    /// Returns `true` if the fault is only a warning and the antenna can work. This classification
+    /// is Azel's own.
     pub const fn is_warning(self) -> bool {
         matches!(self, Self::TleOutdated | Self::WebTle | Self::GpsLink)
     }
 
-    /// Returns `true` if the fault forbids motion. Azel's own classification.
+    /// Returns `true` if the fault forbids motion. This classification is Azel's own.
     pub const fn locks_motion(self) -> bool {
         // With these faults a drive may not obey, or a measured angle may be wrong.
         matches!(
@@ -78,9 +78,9 @@ impl FaultKind {
 coded! {
     FaultState {
         Clear = 0,
-        /// The fault exists; for a sensor, its configuration is wrong.
+        /// An existing fault; for a sensor, a wrong configuration.
         Set = 1,
-        /// A sensor is not connected.
+        /// A sensor that is not connected.
         Disconnected = 2,
     }
 }
@@ -94,12 +94,12 @@ impl FaultState {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Faults {
-    /// `None` for a fault that the unit does not report.
+    /// State of each fault; `None` if the unit does not report it.
     states: [Option<FaultState>; 12],
 }
 
 impl Faults {
-    /// Fewest fields of a reply: the document's own example leaves the last one out.
+    /// Min number of fields in a reply: the document's example omits the last field.
     pub(super) const MIN_FIELDS: usize = 11;
     pub(super) const FIELDS: usize = 12;
 
@@ -112,7 +112,7 @@ impl Faults {
             }
             let code = fields.integer(kind.index())?;
             *state = Some(match FaultState::from_code(code) {
-                // Section 7 explains 2 for the two sensors alone.
+                // Section 7 explains 2 only for the two sensors.
                 FaultState::Disconnected if !kind.is_sensor() => FaultState::Unknown(code),
                 fault_state => fault_state,
             });
@@ -120,17 +120,17 @@ impl Faults {
         Ok(Self { states })
     }
 
-    /// State of one fault; `None` if the unit does not report it.
+    /// Returns the state of one fault; `None` if the unit does not report it.
     pub fn state(&self, kind: FaultKind) -> Option<FaultState> {
         self.states.get(kind.index() - 1).copied().flatten()
     }
 
-    /// All kinds with their states, in the order of the document.
+    /// Returns all kinds with their states, in the order of the document.
     pub fn iter(&self) -> impl Iterator<Item = (FaultKind, Option<FaultState>)> {
         FaultKind::ALL.into_iter().zip(self.states)
     }
 
-    /// Faults that are not clear.
+    /// Returns the faults that are not clear.
     pub fn active(&self) -> impl Iterator<Item = FaultKind> {
         self.iter().filter(|(_, state)| state.is_some_and(FaultState::is_set)).map(|(kind, _)| kind)
     }

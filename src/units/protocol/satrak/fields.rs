@@ -19,15 +19,15 @@ pub enum FieldProblem {
     /// A number outside the range of its type.
     #[error("is out of range")]
     Range,
-    /// This value and those after it form no date and time.
+    /// A value that begins no valid date and time with the values after it.
     #[error("begins no possible date and time")]
     NotTime,
-    /// Not a latitude or longitude with a letter of direction.
+    /// A value that is not a latitude or longitude with a letter of direction.
     #[error("is no latitude or longitude")]
     NotPlace,
 }
 
-/// A value that could not be read. The error holds none of its text, which may be secret.
+/// A value that could not be read. The error contains none of its text, which may be secret.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("value {field} {problem}")]
 pub struct FieldError {
@@ -70,7 +70,7 @@ impl<'a> FrameFields<'a> {
         T::try_from(value).map_err(|_| FieldError { field, problem: FieldProblem::Range })
     }
 
-    /// Reads a flag: any number but zero counts as set, so that an unexplained one does too.
+    /// Reads a flag: any number except zero counts as set, also an unexplained number.
     pub(super) fn flag(self, field: usize) -> Result<bool, FieldError> {
         self.integer::<i64>(field).map(|value| value != 0)
     }
@@ -78,7 +78,7 @@ impl<'a> FrameFields<'a> {
     /// Reads six values from `first` on: hour, minute, second, day, month, year. Adds
     /// `base_year` to the year.
     pub(super) fn time(self, first: usize, base_year: i16) -> Result<Timestamp, FieldError> {
-        // No single value is to blame for a date such as 30 February.
+        // The date as a whole is wrong, such as 30 February, so the error names its first value.
         let impossible = FieldError { field: first, problem: FieldProblem::NotTime };
         let part = |offset| self.integer::<i8>(first + offset);
         let year: i16 = self.integer(first + 5)?;
@@ -90,11 +90,11 @@ impl<'a> FrameFields<'a> {
             .ok_or(impossible)
     }
 
-    /// Like [`Self::time`], with milliseconds in the value after the year.
+    /// Reads a time like [`Self::time`], with milliseconds in the value after the year.
     pub(super) fn time_with_ms(self, first: usize) -> Result<Timestamp, FieldError> {
         let field = first + 6;
         let milliseconds: u16 = self.integer(field)?;
-        // More would carry over into the second and pass for another time.
+        // A larger number would carry over into the second and give another time.
         if milliseconds > 999 {
             return Err(FieldError { field, problem: FieldProblem::Range });
         }
@@ -103,7 +103,7 @@ impl<'a> FrameFields<'a> {
             .map_err(|_| FieldError { field: first, problem: FieldProblem::NotTime })
     }
 
-    /// Reads one value that may hold commas, between `before` and `after` others.
+    /// Reads one value that may contain commas, between `before` and `after` other values.
     pub(super) fn joined(self, before: usize, after: usize) -> Result<String, FieldError> {
         self.frame
             .joined(before, after)
@@ -111,12 +111,12 @@ impl<'a> FrameFields<'a> {
     }
 }
 
-/// Values of a time in the order of the document: hour, minute, second, day, month, year.
+/// Returns the values of a time in the document's order: hour, minute, second, day, month, year.
 pub(super) fn time_values(time: Timestamp) -> [String; 6] {
     // All times of the unit are UTC (notes in sections 8 to 11).
     let civil = TimeZone::UTC.to_datetime(time);
     [
-        // No leading zeros: section 9 writes `16,43,0,17,3,2017`.
+        // The values have no leading zeros: section 9 writes `16,43,0,17,3,2017`.
         civil.hour().to_string(),
         civil.minute().to_string(),
         civil.second().to_string(),

@@ -11,16 +11,16 @@ pub use shown::{HIDDEN, Shown};
 
 use super::{Verb, Word};
 
-/// A harmless deviation from the document, noticed while reading a frame.
+/// A harmless deviation of a frame from the document.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Oddity {
-    /// The checksum has lower-case digits.
+    /// A checksum with lower-case digits.
     LowerCaseChecksum,
-    /// The checksum has one digit instead of two.
+    /// A checksum of one digit instead of two.
     OneDigitChecksum,
-    /// The line ends with LF alone.
+    /// A line that ends with LF alone.
     LineFeedOnly,
-    /// Other bytes came before the `$`.
+    /// Other bytes before the `$`.
     NoiseBeforeHeader,
     /// Blanks between the word and its sign.
     BlankBeforeSign,
@@ -43,7 +43,7 @@ impl Frame {
         let line = payload.to_owned();
         let (name, sign, rest_at) = if let Some(index) = line.find(['?', '=']) {
             let tail = line.get(index..).unwrap_or_default();
-            // Only the document's sample frame has both signs. It must not pass for a known query.
+            // Only the document's sample frame has both signs. It must not match a known query.
             let sign = if tail.starts_with("?=") { "?=" } else { tail.get(..1).unwrap_or("") };
             (line.get(..index).unwrap_or_default(), sign, index + sign.len())
         } else {
@@ -68,12 +68,12 @@ impl Frame {
         frame
     }
 
-    /// Word with its sign, such as `STATUS?` or `MOVE=`, without blanks before it.
+    /// Returns the word with its sign, such as `STATUS?` or `MOVE=`, without leading blanks.
     pub fn word(&self) -> &str {
         &self.word
     }
 
-    /// Word and verb, if the document has the word.
+    /// Returns the word and verb, if the document has the word.
     pub fn command(&self) -> Option<(Word, Verb)> {
         let (name, verb) = match self.word.strip_suffix('?') {
             Some(name) => (name, Verb::Query),
@@ -82,27 +82,27 @@ impl Frame {
         Some((Word::from_name(name)?, verb))
     }
 
-    /// Values, without the blanks around each.
+    /// Returns the values without surrounding blanks.
     pub fn fields(&self) -> &[String] {
         &self.fields
     }
 
-    /// Payload as received. May hold the FTP password: log [`Self::redacted`].
+    /// Returns the payload as received. It may contain the FTP password: log [`Self::redacted`].
     pub fn line(&self) -> &str {
         &self.line
     }
 
-    /// Payload for logs and screens, without secrets.
+    /// Returns the payload for logs and screens, without secrets.
     pub fn redacted(&self) -> Cow<'_, str> {
         redact(&self.line)
     }
 
-    /// Deviations from the document.
+    /// Returns the deviations from the document.
     pub fn oddities(&self) -> &[Oddity] {
         &self.oddities
     }
 
-    /// One value that may contain commas: everything between the first `before` and the last
+    /// Returns one value that may contain commas: the text between the first `before` and the last
     /// `after` fields, with its commas and inner blanks.
     pub(super) fn joined(&self, before: usize, after: usize) -> Option<String> {
         let raw: Vec<&str> = self.raw_fields().collect();
@@ -120,7 +120,7 @@ impl Frame {
     }
 }
 
-// Written by hand, because a derived one would print the FTP password.
+// A derived implementation would print the FTP password.
 impl fmt::Debug for Frame {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Frame")
@@ -130,11 +130,11 @@ impl fmt::Debug for Frame {
     }
 }
 
-/// Makes `payload` fit for logs: leaves out the values of `SATELLITE_FTP`, which hold a
-/// password in clear.
+/// Returns `payload` for logs, without the values of `SATELLITE_FTP`, which contain a password in
+/// clear.
 pub fn redact(payload: &str) -> Cow<'_, str> {
     let name = Word::SatelliteFtp.name();
-    // Searched for everywhere: noise or a cut frame may stand in front of the word.
+    // The search covers the whole payload: noise or a cut frame may precede the word.
     match payload.find(name) {
         Some(index) => {
             let shown = payload.get(..index + name.len()).unwrap_or(name);
@@ -144,14 +144,14 @@ pub fn redact(payload: &str) -> Cow<'_, str> {
     }
 }
 
-/// Checksum: XOR of every payload byte (document chapter "Message structure").
+/// Returns the checksum: XOR of every payload byte (document chapter "Message structure").
 pub fn checksum(payload: &[u8]) -> u8 {
     payload.iter().fold(0, |sum, byte| sum ^ byte)
 }
 
-/// Frame around `payload`, ready to send.
+/// Returns the frame around `payload`, ready to send.
 pub fn encode(payload: &str) -> Vec<u8> {
-    // Upper case, as the document's sample has it.
+    // The digits are upper case, as in the document's sample.
     format!("${payload}*{:02X}\r\n", checksum(payload.as_bytes())).into_bytes()
 }
 

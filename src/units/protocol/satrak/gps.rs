@@ -6,12 +6,11 @@ use super::ValueError;
 use super::fields::{FieldError, FieldProblem, FrameFields};
 use super::number::{checked, parse_decimal};
 
-/// Added to the year: the receiver reports two digits of it.
+/// Offset of the year: the receiver reports only its last two digits.
 const CENTURY: i16 = 2000;
 
-/// A place as the protocol writes it: degrees with a letter, taken as decimal degrees. The
-/// document's example would fit degrees and minutes as well (`41.01` for 41 degrees 1
-/// minute).
+/// A place as the protocol writes it: degrees with a letter, read as decimal degrees. The
+/// document's example would also fit degrees and minutes (`41.01` for 41 degrees 1 minute).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Position {
     latitude_deg: f64,
@@ -19,8 +18,8 @@ pub struct Position {
 }
 
 impl Position {
-    /// Latitude -90 to 90, north positive; longitude -180 to 180, east
-    /// positive. Sent with two decimals, as in the document.
+    /// Returns a place with latitude -90 to 90, north positive, and longitude -180 to 180, east
+    /// positive. Azel sends it with two decimals, as in the document.
     pub fn new(latitude_deg: f64, longitude_deg: f64) -> Result<Self, ValueError> {
         Ok(Self {
             latitude_deg: checked("latitude", latitude_deg, -90.0, 90.0)?,
@@ -28,12 +27,12 @@ impl Position {
         })
     }
 
-    /// Latitude in degrees, north positive.
+    /// Returns the latitude in degrees, north positive.
     pub fn latitude_deg(self) -> f64 {
         self.latitude_deg
     }
 
-    /// Longitude in degrees, east positive.
+    /// Returns the longitude in degrees, east positive.
     pub fn longitude_deg(self) -> f64 {
         self.longitude_deg
     }
@@ -46,7 +45,7 @@ impl Position {
         };
         let latitude_deg = angle(first, 'N', 'S')?;
         let longitude_deg = angle(first + 1, 'E', 'W')?;
-        // Keeps the precision of the report: only values that are sent are rounded.
+        // The value keeps the precision of the report: only sent values are rounded.
         if latitude_deg.abs() > 90.0 || longitude_deg.abs() > 180.0 {
             return Err(FieldError { field: first, problem: FieldProblem::Range });
         }
@@ -55,17 +54,17 @@ impl Position {
 
     fn values(self) -> [String; 2] {
         let text = |angle: f64, plus, minus| {
-            // Section 22 has two decimals, and nothing shows that a unit takes more.
+            // Section 22 has two decimals, and no section shows that a unit takes more.
             format!("{:.2}{}", angle.abs(), if angle < 0.0 { minus } else { plus })
         };
         [text(self.latitude_deg, 'N', 'S'), text(self.longitude_deg, 'E', 'W')]
     }
 }
 
-/// Reads a number with its sign given by the letter after it.
+/// Reads a number whose sign is the letter after it.
 fn lettered(text: &str, plus: char, minus: char) -> Option<f64> {
     let letter = text.chars().next_back()?.to_ascii_uppercase();
-    // `get`, because the last character may be longer than one byte.
+    // `get` is safe if the last character is longer than one byte.
     let magnitude = parse_decimal(text.get(..text.len() - 1)?.trim_end())?;
     match letter {
         // Sign and letter could contradict each other, as in `-41.01S`.
@@ -79,21 +78,21 @@ fn lettered(text: &str, plus: char, minus: char) -> Option<f64> {
 /// Reply to `GPS_DATA?`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GpsData {
-    /// The receiver has a fix. Without one no other field counts.
+    /// `true` if the receiver has a fix. Without a fix, the other fields have no meaning.
     pub valid: bool,
-    /// Place of the receiver; `None` when not valid and not readable.
+    /// Place of the receiver; `None` if unreadable without a fix.
     pub position: Option<Position>,
-    /// Time of the fix, UTC; `None` when not valid and not readable.
+    /// Time of the fix, UTC; `None` if unreadable without a fix.
     pub time: Option<Timestamp>,
 }
 
 impl GpsData {
     pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
-        // Not read as a flag: an unexplained number must not vouch for place and time.
+        // The value is not read as a flag: an unexplained number must not confirm place and time.
         let valid = fields.integer::<i64>(3)? == 1;
         let position = Position::read(fields, 1);
         let time = fields.time(4, CENTURY);
-        // A receiver without a fix fills these fields with anything.
+        // A receiver without a fix fills these fields with arbitrary values.
         if valid {
             return Ok(Self { valid, position: Some(position?), time: Some(time?) });
         }
@@ -104,9 +103,9 @@ impl GpsData {
 /// Reply to `GPS_SETTINGS?`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GpsSettings {
-    /// The unit takes its place from the receiver, not from `position`.
+    /// `true` if the unit takes its place from the receiver, not from `position`.
     pub automatic: bool,
-    /// Place set by hand; `None` when automatic and not readable.
+    /// Manual place; `None` if unreadable in automatic mode.
     pub position: Option<Position>,
 }
 
@@ -120,13 +119,13 @@ impl GpsSettings {
     }
 }
 
-/// Values of `GPS_SETTINGS=`. All three are always sent, for the document does not say
-/// that the place may be left out.
+/// Values of `GPS_SETTINGS=`. Azel always sends all three, because the document does not say that
+/// the place may be omitted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GpsSettingsChange {
-    /// Take the place from the receiver.
+    /// `true` to take the place from the receiver.
     pub automatic: bool,
-    /// Place set by hand.
+    /// Manual place.
     pub position: Position,
 }
 

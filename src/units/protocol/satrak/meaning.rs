@@ -21,11 +21,11 @@ pub enum Tone {
     Plain,
     /// A change of a setting, or a motion.
     Change,
-    /// Accepted.
+    /// An accepted request.
     Good,
-    /// Not in the document.
+    /// A frame that is not in the document.
     Caution,
-    /// Refused or unreadable.
+    /// A refusal, or an unreadable frame.
     Bad,
 }
 
@@ -34,29 +34,29 @@ impl Meaning {
         Self { tone, text: text.into() }
     }
 
-    /// Meaning of a client's frame.
+    /// Returns the meaning of a client's frame.
     pub fn of_request(frame: &Frame) -> Self {
         sent::meaning(frame)
     }
 
-    /// Meaning of a unit's frame.
+    /// Returns the meaning of a unit's frame.
     pub fn of_reply(frame: &Frame) -> Self {
         received::meaning(frame)
     }
 }
 
-/// A number with up to three decimals and a true minus sign.
+/// Returns a number with up to three decimals and a true minus sign.
 fn plain(value: f64) -> String {
     number::plain(value).replace('-', "\u{2212}")
 }
 
-/// Like [`plain`], with a plus sign too.
+/// Returns a number like [`plain`], but also with a plus sign.
 fn signed(value: f64) -> String {
     let plus = if value < 0.0 { "" } else { "+" };
     format!("{plus}{}", plain(value))
 }
 
-/// An angle with two decimals and the degree sign.
+/// Returns an angle with two decimals and the degree sign.
 fn degrees(value: f64) -> String {
     format!("{value:.2}°").replace('-', "\u{2212}")
 }
@@ -70,7 +70,7 @@ fn place(position: Position) -> String {
     format!("{latitude}, {longitude}")
 }
 
-/// Date and time, with milliseconds if there is a fraction of a second.
+/// Returns date and time, with milliseconds if there is a fraction of a second.
 fn date_time(time: Timestamp) -> String {
     let form = if time.subsec_nanosecond() == 0 { "%F %T" } else { "%F %T.%3f" };
     time.strftime(form).to_string()

@@ -1,25 +1,25 @@
-//! Requests that can make metal move (sections 2 to 4, 18 and 19).
+//! Requests that can move the antenna (sections 2 to 4, 18 and 19).
 
 use super::number::{checked, plain};
 use super::{ValueError, Word};
 
-/// Azel's own sanity bounds; the document gives no range.
+/// Azel's own plausibility limits; the document gives no range.
 const MAX_RATE_DEG_S: f64 = 100.0;
 const MAX_STEP_DEG: f64 = 180.0;
 const MIN_ELEVATION_DEG: f64 = -10.0;
 
-/// A request that can make metal move. Only the gate of the driver may encode one.
+/// A request that can move the antenna. Only the driver's gate may encode it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion {
-    /// Run the axes until told otherwise. The document gives no time-out.
+    /// Rotation of the axes until a stop. The document gives no timeout.
     Move(Move),
-    /// Turn the axes by an amount.
+    /// Rotation of the axes by an angle.
     Step(Step),
-    /// Point at a direction.
+    /// Move to a direction.
     Goto(Goto),
-    /// Switch tracking on.
+    /// Tracking on.
     TrackOn,
-    /// Let the unit start tracking by itself in its window.
+    /// Auto-track on: the unit starts to track unattended in its window.
     AutoTrackOn,
 }
 
@@ -31,25 +31,25 @@ pub struct Move {
 }
 
 impl Move {
-    /// Rates in degrees per second, -100 to 100, kept to a thousandth.
+    /// Returns rates in degrees per second, -100 to 100, rounded to a thousandth.
     pub fn new(x_deg_s: f64, y_deg_s: f64) -> Result<Self, ValueError> {
         let rate = |value| checked("rate in deg/s", value, -MAX_RATE_DEG_S, MAX_RATE_DEG_S);
         let (x_deg_s, y_deg_s) = moving(rate(x_deg_s)?, rate(y_deg_s)?)?;
         Ok(Self { x_deg_s, y_deg_s })
     }
 
-    /// Rate of the X axis, degrees per second.
+    /// Returns the rate of the X axis, degrees per second.
     pub fn x_deg_s(self) -> f64 {
         self.x_deg_s
     }
 
-    /// Rate of the Y axis, degrees per second.
+    /// Returns the rate of the Y axis, degrees per second.
     pub fn y_deg_s(self) -> f64 {
         self.y_deg_s
     }
 }
 
-/// Amounts by which both axes turn, at least one of them not zero.
+/// Angles by which both axes turn, at least one of them not zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
     x_deg: f64,
@@ -57,20 +57,20 @@ pub struct Step {
 }
 
 impl Step {
-    /// Amounts in degrees, -180 to 180, kept to a thousandth. The document
-    /// prints deg/s, but its text and examples are degrees.
+    /// Returns a step in degrees, -180 to 180, rounded to a thousandth. The document prints deg/s,
+    /// but its text and examples are degrees.
     pub fn new(x_deg: f64, y_deg: f64) -> Result<Self, ValueError> {
         let step = |value| checked("step in degrees", value, -MAX_STEP_DEG, MAX_STEP_DEG);
         let (x_deg, y_deg) = moving(step(x_deg)?, step(y_deg)?)?;
         Ok(Self { x_deg, y_deg })
     }
 
-    /// Amount of the X axis, degrees.
+    /// Returns the step of the X axis, degrees.
     pub fn x_deg(self) -> f64 {
         self.x_deg
     }
 
-    /// Amount of the Y axis, degrees.
+    /// Returns the step of the Y axis, degrees.
     pub fn y_deg(self) -> f64 {
         self.y_deg
     }
@@ -91,8 +91,8 @@ pub struct Goto {
 }
 
 impl Goto {
-    /// Azimuth 0 to 360 and elevation -10 to 90 in degrees, rounded to a thousandth; `None`
-    /// leaves an angle as it is.
+    /// Returns a direction with azimuth 0 to 360 and elevation -10 to 90 in degrees, rounded to a
+    /// thousandth; `None` leaves an angle unchanged.
     pub fn new(az_deg: Option<f64>, el_deg: Option<f64>) -> Result<Self, ValueError> {
         // Section 4 gives no range, so a unit may refuse 360. Zero is the same direction.
         let azimuth = |value| checked("azimuth", value, 0.0, 360.0).map(|az| az % 360.0);
@@ -106,12 +106,12 @@ impl Goto {
         })
     }
 
-    /// Azimuth in degrees, 0 up to, not including, 360.
+    /// Returns the azimuth in degrees, from 0 to less than 360.
     pub fn az_deg(self) -> Option<f64> {
         self.az_deg
     }
 
-    /// Elevation in degrees.
+    /// Returns the elevation in degrees.
     pub fn el_deg(self) -> Option<f64> {
         self.el_deg
     }
@@ -132,7 +132,7 @@ impl Motion {
         let angle = |angle: Option<f64>| angle.map_or_else(|| "NONE".to_owned(), plain);
         match self {
             Self::Move(Move { x_deg_s, y_deg_s }) => vec![plain(x_deg_s), plain(y_deg_s)],
-            // No plus sign: `+2` stands in the examples of section 3 alone.
+            // The values have no plus sign: only the examples of section 3 write `+2`.
             Self::Step(Step { x_deg, y_deg }) => vec![plain(x_deg), plain(y_deg)],
             Self::Goto(Goto { az_deg, el_deg }) => vec![angle(az_deg), angle(el_deg)],
             Self::TrackOn | Self::AutoTrackOn => vec!["1".to_owned()],

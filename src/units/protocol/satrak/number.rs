@@ -5,7 +5,7 @@ use super::text::TextProblem;
 /// Reason why a value cannot be sent.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ValueError {
-    /// Outside the range, or not finite.
+    /// A number outside the range, or not finite.
     #[error("{name} {value} is not between {min} and {max}")]
     Range {
         /// Meaning of the number, with its unit.
@@ -21,13 +21,13 @@ pub enum ValueError {
         name: &'static str,
         code: i64,
     },
-    /// No axis would move. To stand still is the stop command's job.
+    /// A request without motion. Only the stop command ends a motion.
     #[error("no axis would move")]
     NoMotion,
-    /// Every setting would keep its value.
+    /// A change without a new value.
     #[error("no setting would change")]
     NoChange,
-    /// The stop time is not later than the start time.
+    /// A stop time that is not later than the start time.
     #[error("the stop time is not after the start time")]
     StopBeforeStart,
     /// A text that the protocol cannot carry.
@@ -35,7 +35,7 @@ pub enum ValueError {
     Text {
         /// Meaning of the text.
         name: &'static str,
-        /// Problem with the text; never holds the text itself.
+        /// Problem with the text; never contains the text itself.
         problem: TextProblem,
     },
 }
@@ -47,9 +47,9 @@ pub(super) fn checked(
     min: f64,
     max: f64,
 ) -> Result<f64, ValueError> {
-    // Rounded before the test, because the unit gets the rounded value.
+    // Rounding comes before the test, because the unit gets the rounded value.
     let rounded = (value * 1000.0).round() / 1000.0;
-    // This form refuses NaN too. Adding zero removes a minus zero.
+    // This form also refuses NaN. Adding zero removes a minus zero.
     if (min..=max).contains(&rounded) {
         Ok(rounded + 0.0)
     } else {
@@ -57,14 +57,14 @@ pub(super) fn checked(
     }
 }
 
-/// Up to three decimals, and none for a whole number: `-3.5`, `0`, `125.1`.
+/// Returns a number with up to three decimals, and none for a whole number: `-3.5`, `0`, `125.1`.
 pub(super) fn plain(value: f64) -> String {
     let text = format!("{value:.3}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// Like [`plain`], but always with a decimal: `5.0`.
+/// Returns a number like [`plain`], but always with a decimal: `5.0`.
 pub(super) fn pointed(value: f64) -> String {
     let text = plain(value);
     // The examples of sections 13 and 15 have a decimal in each angle: `1.0`, `160.0`.
@@ -80,7 +80,7 @@ pub(super) fn parse_decimal(text: &str) -> Option<f64> {
     number.filter(|number| number.is_finite())
 }
 
-/// Reads a whole number; a fraction of zeros is accepted.
+/// Reads a whole number; accepts a fraction of zeros.
 pub(super) fn parse_integer(text: &str) -> Option<i64> {
     let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
     // The document does not say how a unit prints a whole number.

@@ -24,7 +24,7 @@ pub enum Reply {
     SatelliteFtp(SatelliteFtp),
     ImageStatus(ImageStatus),
     Reduction(Reduction),
-    /// The request was accepted. For a motion: it has begun, not that it has arrived.
+    /// Acceptance of a request. For a motion, it means the start and not the arrival.
     Done,
     Refused {
         /// Error code, raw: the document lists none.
@@ -32,14 +32,14 @@ pub enum Reply {
     },
 }
 
-/// Reply to `VERSION?`: free texts, never the basis of a decision.
+/// Reply to `VERSION?`: free texts, on which no decision depends.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Version {
     /// Firmware of the control unit, with its date.
     pub control_unit: String,
     /// Firmware of the drive unit, with its date.
     pub drive_unit: Option<String>,
-    /// Texts beyond those of the document.
+    /// Texts in addition to the texts in the document.
     pub others: Vec<String>,
 }
 
@@ -58,9 +58,9 @@ impl Version {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Note {
     Oddity(Oddity),
-    /// Number of values after those that the document lists.
+    /// Number of values in addition to those in the document.
     ExtraFields(usize),
-    /// Number of listed values that the reply lacks.
+    /// Number of values in the document that the reply lacks.
     MissingFields(usize),
 }
 
@@ -74,29 +74,29 @@ pub struct ParsedReply {
     pub notes: Vec<Note>,
 }
 
-/// Reason why a frame is not a reply. Holds no values, for they may be secret.
+/// Reason why a frame is not a reply. The error contains no values, because they may be secret.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ReplyError {
     #[error("unknown word {0}")]
     UnknownWord(String),
-    /// The document has no request of this word with this verb.
+    /// A word that the document does not have with this verb.
     #[error("{word}{} is no request", verb.sign())]
     NoSuchRequest {
         word: Word,
         /// Verb with which the word came.
         verb: Verb,
     },
-    /// Neither `OK` nor `ERR` after a setting.
+    /// A setting's answer that is neither `OK` nor `ERR`.
     #[error("{0}= without OK or ERR")]
     NeitherOkNorErr(Word),
-    /// Wrong number of values.
+    /// A wrong number of values.
     #[error("{word}? with {found} instead of {min} to {max} values")]
     Count {
         word: Word,
         found: usize,
         min: usize,
         max: usize,
-        /// The unit seems to write decimal commas.
+        /// `true` if the unit seems to write decimal commas.
         looks_like_decimal_commas: bool,
     },
     #[error("{word}?: {error}")]
@@ -107,8 +107,8 @@ pub enum ReplyError {
     },
 }
 
-/// Number of values of a reply: fewest readable, listed in the document, most readable,
-/// and how many of them are decimals.
+/// Number of values of a reply: the readable min, the number in the document, the readable max, and
+/// the number of decimals among them.
 struct ReplyShape {
     min: usize,
     listed: usize,
@@ -118,18 +118,18 @@ struct ReplyShape {
 
 impl ReplyShape {
     const fn for_word(word: Word) -> Option<Self> {
-        /// Most values of a reply that ends in a text, which may hold commas.
+        /// Max number of values of a reply that ends in a text, which may contain commas.
         const ANY: usize = usize::MAX;
         let (min, listed, max, decimals) = match word {
-            // No decision rests on these texts, so their number does not matter.
+            // No decision depends on these texts, so their number does not matter.
             Word::Version => (1, 2, ANY, 0),
             Word::Status => (Status::MIN_FIELDS, Status::FIELDS, Status::MAX_FIELDS, 4),
-            // None of these is a decimal, so a further value cannot come from a comma in one.
+            // None of these values is a decimal, so no additional value comes from a decimal comma.
             Word::ErrStatus => (Faults::MIN_FIELDS, Faults::FIELDS, ANY, 0),
-            // Section 8 lists seven values and has six in its example.
+            // Section 8 lists seven values, but its example has six.
             Word::Time => (6, 7, 7, 0),
             Word::StartStopTime => (12, 12, 12, 0),
-            // With one value more or less, nobody could tell which settings have moved.
+            // With one value more or less, the places of the settings would be unknown.
             Word::Settings => (Settings::FIELDS, Settings::FIELDS, Settings::FIELDS, 5),
             Word::AngleSettings => (4, 4, 4, 2),
             Word::GpsData | Word::Tpos => (9, 9, 9, 2),
@@ -156,7 +156,7 @@ impl ReplyShape {
         if (self.min..=self.max).contains(&found) {
             return Ok(());
         }
-        // Either every decimal falls apart at its comma, or only those that are not whole.
+        // A unit with decimal commas splits every decimal, or only those that are not whole.
         let looks_like_decimal_commas = found > self.max && self.decimals > 0;
         let Self { min, max, .. } = *self;
         Err(ReplyError::Count { word, found, min, max, looks_like_decimal_commas })
@@ -164,7 +164,7 @@ impl ReplyShape {
 
     fn note(&self, word: Word, found: usize) -> Option<Note> {
         match word {
-            // Further values are commas in the name or the address.
+            // Additional values are commas in the name or the address.
             Word::Satellite | Word::SatelliteHttp => None,
             _ if found > self.listed => Some(Note::ExtraFields(found - self.listed)),
             _ if found < self.listed => Some(Note::MissingFields(self.listed - found)),
@@ -181,7 +181,8 @@ impl Reply {
         let mut notes: Vec<Note> = frame.oddities().iter().copied().map(Note::Oddity).collect();
         let fields = FrameFields::new(frame);
         let reply = match (frame.fields().first().map(String::as_str), verb) {
-            // Looked for before values are counted: the form of a failed query is not stated.
+            // This test comes before the count: the document does not state the form of a failed
+            // query.
             (Some("ERR"), _) if is_refusal(word, fields.count()) => {
                 Self::Refused { code: fields.joined(1, 0).unwrap_or_default() }
             }
@@ -199,9 +200,9 @@ impl Reply {
     }
 }
 
-/// Returns `true` if `ERR` in front of the values of a reply means a refusal.
+/// Returns `true` if `ERR` before the values of a reply means a refusal.
 fn is_refusal(word: Word, count: usize) -> bool {
-    // It may be the address of the server: then a code would carry the password to the log.
+    // `ERR` may be the address of the server: a code would then carry the password to the log.
     word != Word::SatelliteFtp || count <= 2
 }
 
@@ -221,12 +222,12 @@ fn read(word: Word, fields: FrameFields<'_>) -> Result<Reply, FieldError> {
         Word::SatelliteFtp => Reply::SatelliteFtp(SatelliteFtp::read(fields)?),
         Word::LoadImage => Reply::ImageStatus(ImageStatus { raw: fields.joined(0, 0)? }),
         Word::Reduction => Reply::Reduction(Reduction::read(fields)?),
-        // Words whose reply has no shape were refused above.
+        // The caller has refused words whose reply has no shape.
         _ => Reply::Version(Version::read(fields)?),
     })
 }
 
-/// Enough of a word to find it in the log.
+/// Returns enough characters of a word to find it in the log.
 fn bounded(word: &str) -> String {
     word.chars().take(32).collect()
 }
@@ -241,7 +242,7 @@ mod tests {
 
     #[test]
     fn decimal_commas_are_never_read_as_other_angles() {
-        // 16 fields become 20, 15 become 19.
+        // The commas turn 16 fields into 20, and 15 into 19.
         for tail in ["", ",1"] {
             let payload = format!("STATUS?,0,299,49,34,35,0,0,0,0,0,0,0,0,0,0,80,0,35,0{tail}");
             let error = parse(&payload).unwrap_err();

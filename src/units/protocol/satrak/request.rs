@@ -6,17 +6,16 @@ use super::{
     SettingsRequest, TextValue, TrackWindow, Verb, Word,
 };
 
-/// Any request of a client. Its values were checked when it was built, so encoding cannot
-/// fail.
+/// Any request of a client. Its values were checked at construction, so encoding cannot fail.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Request {
-    /// Reads without changing anything.
+    /// A read, which changes nothing.
     Query(Query),
-    /// Ends motion; always allowed.
+    /// An end of motion; always allowed.
     Halt(Halt),
-    /// Can make metal move.
+    /// A request that can move the antenna.
     Motion(Motion),
-    /// Changes something that the unit remembers.
+    /// A change of a value that the unit stores.
     Setting(Setting),
 }
 
@@ -68,11 +67,11 @@ impl Query {
 /// Requests that end motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Halt {
-    /// Stand still. Whether tracking goes on afterwards is not documented.
+    /// Standstill. The document does not say whether tracking continues afterwards.
     Stop,
-    /// Switch tracking off.
+    /// Tracking off.
     TrackOff,
-    /// Do not start tracking by itself.
+    /// Auto-track off: the unit does not start to track unattended.
     AutoTrackOff,
 }
 
@@ -86,26 +85,26 @@ impl Halt {
     }
 }
 
-/// Changes of what the unit remembers.
+/// Changes of values that the unit stores.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Setting {
     Time(ClockTime),
     StartStopTime(TrackWindow),
     Settings(SettingsRequest),
     AngleSettings(AngleChange),
-    /// Set the clock from GPS now.
+    /// Update of the clock from GPS, now.
     RtcReupdate,
-    /// Set the place.
+    /// Place of the unit.
     GpsSettings(GpsSettingsChange),
-    /// Choose a satellite of a file.
+    /// Satellite from a file.
     Satellite(SatelliteChoice),
-    /// Take elements from the web.
+    /// Elements from the web.
     SatelliteHttp(HttpTle),
-    /// Take elements from an FTP server.
+    /// Elements from an FTP server.
     SatelliteFtp(FtpTle),
-    /// Load an image file, presumably of the firmware.
+    /// Load of an image file, presumably of the firmware.
     LoadImage(TextValue),
-    /// Set the scales of the drives.
+    /// Scales of the drives.
     Reduction(Reduction),
 }
 
@@ -144,7 +143,7 @@ impl Setting {
 }
 
 impl Request {
-    /// The word, which the reply repeats.
+    /// Returns the word, which the reply repeats.
     pub fn word(&self) -> Word {
         match self {
             Self::Query(query) => query.word(),
@@ -154,7 +153,7 @@ impl Request {
         }
     }
 
-    /// The verb, which the reply repeats.
+    /// Returns the verb, which the reply repeats.
     pub const fn verb(&self) -> Verb {
         match self {
             Self::Query(_) => Verb::Query,
@@ -162,12 +161,12 @@ impl Request {
         }
     }
 
-    /// Frame to send.
+    /// Returns the frame to send.
     pub fn to_bytes(&self) -> Vec<u8> {
         encode(&self.payload())
     }
 
-    /// Payload. May hold the FTP password: log it through [`super::redact`].
+    /// Returns the payload. It may contain the FTP password: log it through [`super::redact`].
     pub fn payload(&self) -> String {
         let values = match self {
             // `STOP=` ends with its sign, without a comma (section 5).
@@ -178,7 +177,8 @@ impl Request {
         };
         let mut payload = format!("{}{}", self.word(), self.verb().sign());
         for value in values {
-            // A comma also before the first value: only the examples of section 15 leave it out.
+            // The first value also has a comma before it: only the examples of section 15 omit that
+            // comma.
             payload.push(',');
             payload.push_str(&value);
         }

@@ -1,5 +1,5 @@
-//! Requests read from frames, as a unit or its simulator does. The odd forms of the
-//! document's examples are accepted too.
+//! Decoding of requests from frames, as a unit or its simulator does, with the odd forms of the
+//! document's examples.
 
 use super::fields::{FieldError, FieldProblem, FrameFields};
 use super::{
@@ -12,10 +12,10 @@ use super::{
 /// Reason why a frame is not a request.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RequestError {
-    /// Not a word of the document, or not with this sign.
+    /// An unknown word, or a word that does not exist with this sign.
     #[error("unknown request")]
     Unknown,
-    /// Wrong number of values.
+    /// A wrong number of values.
     #[error("{found} values instead of {expected}")]
     Count {
         found: usize,
@@ -25,7 +25,7 @@ pub enum RequestError {
     /// A value that cannot be read.
     #[error(transparent)]
     Field(#[from] FieldError),
-    /// A value out of its range or meaning.
+    /// A value that is out of range or has no meaning.
     #[error(transparent)]
     Value(#[from] ValueError),
 }
@@ -52,7 +52,7 @@ fn exactly(fields: FrameFields<'_>, expected: usize) -> Result<(), RequestError>
     if found == expected { Ok(()) } else { Err(RequestError::Count { found, expected }) }
 }
 
-/// Number of values that a setting takes.
+/// Returns the number of values that a setting takes.
 const fn value_count(word: Word) -> usize {
     match word {
         Word::Move | Word::Step | Word::Goto | Word::Reduction => 2,
@@ -69,7 +69,7 @@ const fn value_count(word: Word) -> usize {
 }
 
 fn parse_set(word: Word, fields: FrameFields<'_>) -> Result<Request, RequestError> {
-    // The document's example of SATELLITE_FTP= leaves file and satellite out.
+    // The document's example of SATELLITE_FTP= omits file and satellite.
     let is_short_ftp = word == Word::SatelliteFtp && fields.count() == 6;
     if !is_short_ftp {
         exactly(fields, value_count(word))?;
@@ -84,7 +84,7 @@ fn parse_set(word: Word, fields: FrameFields<'_>) -> Result<Request, RequestErro
         }
         Word::Goto => return motion(Motion::Goto(parse_goto(fields)?)),
         Word::Stop => return Ok(Request::Halt(Halt::Stop)),
-        // Switching on passes the gate as a motion. Switching off must always be allowed.
+        // Switching on passes the gate as a motion. Switching off is always allowed.
         Word::Track if switch(fields, 1)? => return motion(Motion::TrackOn),
         Word::Track => return Ok(Request::Halt(Halt::TrackOff)),
         Word::TrackAutoEnable if switch(fields, 1)? => return motion(Motion::AutoTrackOn),
@@ -146,7 +146,7 @@ fn parse_goto(fields: FrameFields<'_>) -> Result<Goto, RequestError> {
 }
 
 fn parse_settings(fields: FrameFields<'_>) -> Result<SettingsRequest, RequestError> {
-    // Section 13 alone gives `?` the meaning of a value that stays.
+    // Only section 13 uses `?` for a value that stays.
     let keeps = |field| fields.text(field).map(|text| text == "?");
     let integer = |field| {
         if keeps(field)? { Ok(None) } else { fields.integer::<i64>(field).map(Some) }
@@ -170,7 +170,7 @@ fn parse_settings(fields: FrameFields<'_>) -> Result<SettingsRequest, RequestErr
 
 fn parse_angles(fields: FrameFields<'_>) -> Result<AngleChange, RequestError> {
     let angles = SensorAngles::new(fields.decimal(3)?, fields.decimal(5)?)?;
-    // A unit ignores the sensor values then (section 15), so they may be anything.
+    // In this case, a unit ignores the sensor values (section 15), so any values are valid.
     if switch(fields, 1)? {
         return Ok(AngleChange::PresentPosition(angles));
     }
@@ -184,7 +184,7 @@ fn parse_ftp(fields: FrameFields<'_>, is_short: bool) -> Result<FtpTle, RequestE
     } else {
         Some(TleSelection { file: text(fields, 5)?, satellite: text(fields, 6)? })
     };
-    // Counted from the end, because the short form lacks two values before these.
+    // These values count from the end, because the short form lacks two values before them.
     let last = fields.count();
     Ok(FtpTle {
         address: text(fields, 1)?,

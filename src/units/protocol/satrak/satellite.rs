@@ -8,7 +8,7 @@ coded! {
     /// Action of the unit when an update of the elements fails.
     UpdateErrorAction {
         Stop = 0,
-        /// Go on with the last elements.
+        /// Further use of the last elements.
         Continue = 1,
     }
 }
@@ -18,12 +18,12 @@ coded! {
 pub struct Satellite {
     /// File with the elements.
     pub file: String,
-    /// Name as in the file; may hold commas.
+    /// Name as in the file; may contain commas.
     pub name: String,
-    /// Update period; the document gives no unit here, days elsewhere.
+    /// Update period. The document gives no unit here, but days elsewhere.
     pub period: u32,
     pub catalog_number: u32,
-    /// Maximum elevation, degrees; presumably of the coming pass.
+    /// Max elevation, degrees; presumably of the next pass.
     pub maximum_elevation_deg: f64,
 }
 
@@ -31,8 +31,8 @@ impl Satellite {
     pub(super) const FIELDS: usize = 5;
 
     pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
-        // The name is the only value that may hold commas.
-        // `max` keeps the subtractions below from falling under zero.
+        // The name is the only value that may contain commas. `max` keeps the subtractions below
+        // from becoming negative.
         let last = fields.count().max(Self::FIELDS);
         Ok(Self {
             file: fields.text(1)?.to_owned(),
@@ -53,7 +53,7 @@ pub struct SatelliteChoice {
     pub name: TextValue,
     /// Update period; see [`Satellite::period`].
     pub period: u16,
-    /// Continue the present track instead of stopping it.
+    /// `true` to continue the current track instead of stopping it.
     pub continue_tracking: bool,
 }
 
@@ -73,7 +73,7 @@ impl SatelliteChoice {
 pub struct SatelliteHttp {
     /// Web address of the elements.
     pub url: String,
-    /// Update period in days.
+    /// Update period, days.
     pub period_days: u32,
     pub on_error: UpdateErrorAction,
 }
@@ -84,7 +84,7 @@ impl SatelliteHttp {
     pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         let last = fields.count().max(Self::FIELDS);
         Ok(Self {
-            // An address may hold commas, and the two numbers behind it cannot.
+            // An address may contain commas, but the two numbers after it cannot.
             url: fields.joined(0, 2)?,
             period_days: fields.integer(last - 1)?,
             on_error: UpdateErrorAction::from_code(fields.integer(last)?),
@@ -97,11 +97,11 @@ impl SatelliteHttp {
 pub struct HttpTle {
     /// Web address of the elements.
     pub url: UrlValue,
-    /// Update period in days.
+    /// Update period, days.
     pub period_days: u16,
-    /// Go on with the last elements when an update fails, instead of stopping.
+    /// `true` to continue with the last elements when an update fails, instead of stopping.
     pub continue_on_error: bool,
-    /// Continue the present track instead of stopping it.
+    /// `true` to continue the current track instead of stopping it.
     pub continue_tracking: bool,
 }
 
@@ -116,7 +116,7 @@ impl HttpTle {
     }
 }
 
-/// Reply to `SATELLITE_FTP?`. The unit sends its password back in clear.
+/// Reply to `SATELLITE_FTP?`. The unit returns its password in clear.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SatelliteFtp {
     /// Address of the server.
@@ -128,13 +128,13 @@ pub struct SatelliteFtp {
     pub file: String,
     /// Name of the satellite as in the file.
     pub satellite: String,
-    /// Update period in days.
+    /// Update period, days.
     pub period_days: u32,
     pub on_error: UpdateErrorAction,
 }
 
 impl SatelliteFtp {
-    /// Number of values. With more, one of four texts holds a comma and nobody can tell which.
+    /// Number of values. With more values, an unknown one of four texts contains a comma.
     pub(super) const FIELDS: usize = 8;
 
     pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
@@ -169,12 +169,12 @@ pub struct FtpTle {
     pub password: Password,
     /// TCP port. The document's example has 22, which is SFTP.
     pub port: u16,
-    /// File and satellite on the server. `None` is the six-value form of the document's
-    /// example; a console sends all eight.
+    /// File and satellite on the server. `None` is the six-value form of the document's example; a
+    /// console sends all eight values.
     pub selection: Option<TleSelection>,
-    /// Update period in days.
+    /// Update period, days.
     pub period_days: u16,
-    /// Go on with the last elements when an update fails, instead of stopping.
+    /// `true` to continue with the last elements when an update fails, instead of stopping.
     pub continue_on_error: bool,
 }
 

@@ -5,11 +5,11 @@ use super::ValueError;
 use super::fields::{FieldError, FrameFields};
 use super::number::{checked, plain, pointed};
 
-/// Azel's own sanity bound; the document gives neither unit nor range.
+/// Azel's own plausibility limit; the document gives neither unit nor range.
 const MAX_REDUCTION: f64 = 1_000_000.0;
 const MAX_REFERENCE_DEG: f64 = 360.0;
 
-/// Angles for sensor readings.
+/// Reference angles of both axes for sensor readings, degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorAngles {
     x_deg: f64,
@@ -17,19 +17,19 @@ pub struct SensorAngles {
 }
 
 impl SensorAngles {
-    /// Reference angles in degrees, within a turn, rounded to a thousandth.
+    /// Returns reference angles from -360 to 360 degrees, rounded to a thousandth.
     pub fn new(x_deg: f64, y_deg: f64) -> Result<Self, ValueError> {
         let angle =
             |value| checked("reference angle", value, -MAX_REFERENCE_DEG, MAX_REFERENCE_DEG);
         Ok(Self { x_deg: angle(x_deg)?, y_deg: angle(y_deg)? })
     }
 
-    /// Reference angle of the X axis, degrees.
+    /// Returns the reference angle of the X axis, degrees.
     pub fn x_deg(self) -> f64 {
         self.x_deg
     }
 
-    /// Reference angle of the Y axis, degrees.
+    /// Returns the reference angle of the Y axis, degrees.
     pub fn y_deg(self) -> f64 {
         self.y_deg
     }
@@ -62,10 +62,10 @@ impl AngleSettings {
 /// Values of `ANGLE_SETTINGS=`, which calibrate the reported angles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AngleChange {
-    /// The present position has these angles.
+    /// Angles of the current position.
     PresentPosition(SensorAngles),
-    // Section 14 gives no unit, but 39049 and 36838 of its example fit 16 bits.
-    /// These sensor readings, in counts of 16 bits, have these angles.
+    // Section 14 gives no unit, but 39049 and 36838 in its example fit 16 bits.
+    /// Angles of the given sensor readings, which are counts of 16 bits.
     Given {
         /// Sensor reading of the X axis.
         x_sensor: u16,
@@ -78,7 +78,7 @@ pub enum AngleChange {
 impl AngleChange {
     pub(super) fn values(self) -> Vec<String> {
         let (automatic, x_sensor, y_sensor, angles) = match self {
-            // The unit ignores these sensor values. Section 15 has zeros in its example.
+            // The unit ignores these sensor values. The example in section 15 has zeros.
             Self::PresentPosition(angles) => ("1", 0, 0, angles),
             Self::Given { x_sensor, y_sensor, angles } => ("0", x_sensor, y_sensor, angles),
         };
@@ -101,25 +101,25 @@ pub struct Reduction {
 }
 
 impl Reduction {
-    /// Scales above 0, up to a million, rounded to a thousandth.
+    /// Returns scales from 0.001 to a million, rounded to a thousandth.
     pub fn new(x: f64, y: f64) -> Result<Self, ValueError> {
         // A thousandth is the smallest scale that does not round to zero.
         let ratio = |value| checked("reduction", value, 0.001, MAX_REDUCTION);
         Ok(Self { x: ratio(x)?, y: ratio(y)? })
     }
 
-    /// Scale of the X axis.
+    /// Returns the scale of the X axis.
     pub fn x(self) -> f64 {
         self.x
     }
 
-    /// Scale of the Y axis.
+    /// Returns the scale of the Y axis.
     pub fn y(self) -> f64 {
         self.y
     }
 
     pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
-        // Not checked: the range is Azel's own, and a unit may hold other values.
+        // The values are unchecked: the range is Azel's own, and a unit may hold other values.
         Ok(Self { x: fields.decimal(1)?, y: fields.decimal(2)? })
     }
 

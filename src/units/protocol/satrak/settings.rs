@@ -20,7 +20,7 @@ coded! {
         Off = 0,
         /// On: the antenna radiates.
         On = 1,
-        /// By [`SspaAutoRule`].
+        /// Automatic switching by [`SspaAutoRule`].
         Auto = 2,
     }
 }
@@ -30,9 +30,9 @@ coded! {
     SspaAutoRule {
         Tracking = 0,
         CarrierLock = 1,
-        /// While tracking with the carrier locked.
+        /// Tracking with the carrier locked.
         Both = 2,
-        /// While tracking or with the carrier locked.
+        /// Tracking, or a locked carrier.
         Either = 3,
     }
 }
@@ -52,13 +52,13 @@ coded! {
 /// Reply to `SETTINGS?`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// The clock follows GPS.
+    /// `true` if the clock follows GPS.
     pub rtc_from_gps: bool,
     /// Time by which tracking runs ahead, milliseconds.
     pub time_offset_ms: i64,
-    /// Added to the azimuth while tracking, degrees.
+    /// Offset that the unit adds to the azimuth while tracking, degrees.
     pub az_offset_deg: f64,
-    /// Added to the elevation while tracking, degrees.
+    /// Offset that the unit adds to the elevation while tracking, degrees.
     pub el_offset_deg: f64,
     /// Time before the window at which the unit goes to the start point, milliseconds.
     pub lead_ms: i64,
@@ -67,7 +67,7 @@ pub struct Settings {
     pub north_offset_deg: f64,
     pub sspa: SspaMode,
     pub sspa_auto: SspaAutoRule,
-    /// Source of the elements. No request of the document sets it.
+    /// Source of the elements. The document has no request that sets it.
     pub tle_mode: TleMode,
     pub elevation_threshold_deg: f64,
 }
@@ -92,7 +92,7 @@ impl Settings {
         })
     }
 
-    /// Settings after `change`, as they must be read back.
+    /// Returns the settings that the read-back must show after `change`.
     #[must_use]
     pub fn after(self, change: &SettingsChange) -> Self {
         Self {
@@ -116,7 +116,7 @@ impl Settings {
     }
 }
 
-/// The settings to change; `None` keeps a value. Meanings as in [`Settings`].
+/// Settings to change; `None` keeps a value. [`Settings`] describes the fields.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SettingsChange {
     pub rtc_from_gps: Option<bool>,
@@ -136,15 +136,15 @@ pub struct SettingsChange {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SettingsRequest(SettingsChange);
 
-/// Azel's own bounds; the document gives none.
+/// Azel's own limits; the document gives none.
 const MAX_TIME_MS: f64 = 3_600_000.0;
 const MAX_OFFSET_DEG: f64 = 10.0;
 const MAX_NORTH_OFFSET_DEG: f64 = 360.0;
 
 impl SettingsRequest {
-    /// Checks a change against Azel's own ranges: angle offsets within 10 degrees, times within
-    /// an hour, elevations 0 to 90, north offset within a turn; rounds angles to a thousandth.
-    /// A change that changes nothing is refused.
+    /// Checks a change against Azel's own ranges: angle offsets within 10 degrees, times within an
+    /// hour, elevations 0 to 90, north offset within a turn. Rounds angles to a thousandth. Returns
+    /// an error for an empty change.
     pub fn new(change: &SettingsChange) -> Result<Self, ValueError> {
         if *change == SettingsChange::default() {
             return Err(ValueError::NoChange);
@@ -154,7 +154,7 @@ impl SettingsRequest {
             checked("time offset in ms", ms as f64, -MAX_TIME_MS, MAX_TIME_MS)?;
         }
         if let Some(ms) = change.lead_ms {
-            // Section 12 names it a time before the start, so it has no negative side.
+            // Section 12 calls it a time before the start, so it cannot be negative.
             checked("lead time in ms", ms as f64, 0.0, MAX_TIME_MS)?;
         }
         for (name, unknown) in [
@@ -162,8 +162,7 @@ impl SettingsRequest {
             ("power amplifier", change.sspa.map(|mode| (mode.code(), 2))),
             ("power amplifier rule", change.sspa_auto.map(|rule| (rule.code(), 3))),
         ] {
-            // An unexplained number may be read from a unit, but nobody knows what it would do
-            // there.
+            // A unit may report an unexplained number, but its effect as a setting is unknown.
             if let Some((code, last)) = unknown
                 && !(0..=last).contains(&code)
             {

@@ -8,9 +8,9 @@ coded! {
     TrackState {
         NotInTrackTime = 0,
         InTrackTime = 1,
-        /// The window is over.
+        /// A window that is over.
         Completed = 2,
-        /// Going to the start point before the window begins.
+        /// Move to the start point before the window begins.
         BeforeStart = 3,
     }
 }
@@ -18,10 +18,10 @@ coded! {
 coded! {
     /// Motion of one axis (fields 12 and 13).
     AxisMotion {
-        /// Toward smaller angles.
+        /// Motion toward smaller angles.
         Negative = -1,
         Still = 0,
-        /// Toward larger angles.
+        /// Motion toward larger angles.
         Positive = 1,
     }
 }
@@ -36,13 +36,13 @@ impl AxisMotion {
 /// End switches of both axes; an unexplained number counts as set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Limits {
-    /// X at its upper end.
+    /// `true` if the X axis is at its upper end.
     pub x_plus: bool,
-    /// X at its lower end.
+    /// `true` if the X axis is at its lower end.
     pub x_minus: bool,
-    /// Y at its upper end.
+    /// `true` if the Y axis is at its upper end.
     pub y_plus: bool,
-    /// Y at its lower end.
+    /// `true` if the Y axis is at its lower end.
     pub y_minus: bool,
 }
 
@@ -56,7 +56,7 @@ impl Limits {
 /// Measurements and activity of the unit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Status {
-    /// A fault or warning exists; `ERRSTATUS?` tells which.
+    /// `true` if a fault or warning exists; `ERRSTATUS?` names it.
     pub fault: bool,
     /// Azimuth, degrees.
     pub az_deg: f64,
@@ -65,9 +65,9 @@ pub struct Status {
     pub limits: Limits,
     pub tracking_enabled: bool,
     pub track_state: TrackState,
-    /// The clock was set from GPS.
+    /// `true` if the clock was set from GPS.
     pub rtc_from_gps: bool,
-    /// GPS lock delay, seconds; the document says no more.
+    /// GPS lock delay, seconds; the document gives no explanation.
     pub gps_lock_delay_s: f64,
     pub x_motion: AxisMotion,
     pub y_motion: AxisMotion,
@@ -75,18 +75,17 @@ pub struct Status {
     pub x_deg: f64,
     /// Y angle, degrees.
     pub y_deg: f64,
-    /// Auto track is on; `None` if the unit does not report it.
+    /// `true` if auto-track is on; `None` if the unit does not report it.
     pub auto_track: Option<bool>,
 }
 
 impl Status {
-    /// Fields that an older unit sends.
+    /// Number of fields that an older unit sends.
     pub(super) const MIN_FIELDS: usize = 15;
-    /// Fields that the document lists.
+    /// Number of fields that the document lists.
     pub(super) const FIELDS: usize = 16;
-    /// Maximum number of fields, with room for additions of a newer unit. Decimal commas turn
-    /// 15 fields into 19, which would be read as other angles, so they must not pass as
-    /// additions.
+    /// Max number of fields, with room for additions of a newer unit. Decimal commas turn 15 fields
+    /// into 19 with wrong angles, so 19 fields must not count as additions.
     pub(super) const MAX_FIELDS: usize = 18;
 
     pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
@@ -102,9 +101,9 @@ impl Status {
             },
             tracking_enabled: fields.flag(8)?,
             track_state: TrackState::from_code(fields.integer(9)?),
-            // Not read as a flag: an unexplained number must not vouch for the clock.
+            // The value is not read as a flag: an unexplained number must not confirm the clock.
             rtc_from_gps: fields.integer::<i64>(10)? == 1,
-            // Section 6 gives seconds, but not that they are whole.
+            // Section 6 gives seconds, but does not say that they are whole.
             gps_lock_delay_s: fields.decimal(11)?,
             x_motion: AxisMotion::from_code(fields.integer(12)?),
             y_motion: AxisMotion::from_code(fields.integer(13)?),

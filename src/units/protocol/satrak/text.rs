@@ -1,35 +1,35 @@
-//! Texts that fit between commas. The protocol has no escape, so a text that it cannot
-//! carry is refused before it is sent.
+//! Texts that fit between commas. The protocol has no escape, so Azel refuses a text that it cannot
+//! carry.
 
 use std::fmt;
 
 use super::ValueError;
 
-/// Maximum length of a text: five of them still fit in a line.
+/// Max length of a text, bytes: five such texts still fit in a line.
 const MAX_TEXT_BYTES: usize = 180;
-/// Maximum length of a web address.
+/// Max length of a web address, bytes.
 const MAX_URL_BYTES: usize = 400;
 
-/// Reason why a text cannot be carried.
+/// Reason why the protocol cannot carry a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum TextProblem {
     #[error("is empty")]
     Empty,
-    /// Longer than 180 bytes, or 400 for a web address.
+    /// A text longer than 180 bytes, or a web address longer than 400.
     #[error("is too long")]
     TooLong,
-    /// Has a comma, which separates values.
+    /// A comma, which separates values.
     #[error("holds a comma")]
     Comma,
-    /// Has `$` or `*`, which frame the message.
+    /// A `$` or `*`, which frame the message.
     #[error("holds a dollar sign or a star")]
     FrameSign,
     #[error("holds a character outside printable ASCII")]
     NotPrintable,
-    /// Begins or ends with a blank; such blanks are removed by unknown rules.
+    /// A blank at an end, which the unit removes by unknown rules.
     #[error("begins or ends with a blank")]
     OuterBlank,
-    /// Is a lone `?`, which means "keep the value".
+    /// A lone `?`, which means "keep the value".
     #[error("is a single question mark")]
     KeepSign,
 }
@@ -54,7 +54,7 @@ fn check(text: &str, max_bytes: usize) -> Result<(), TextProblem> {
 pub struct TextValue(String);
 
 impl TextValue {
-    /// Checks `text`; `name` names it in the error.
+    /// Checks `text`. The error contains `name`.
     pub fn new(name: &'static str, text: &str) -> Result<Self, ValueError> {
         check(text, MAX_TEXT_BYTES).map_err(|problem| ValueError::Text { name, problem })?;
         Ok(Self(text.to_owned()))
@@ -65,28 +65,27 @@ impl TextValue {
     }
 }
 
-/// A web address; its commas are percent-encoded.
+/// A web address with percent-encoded commas.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UrlValue(String);
 
 impl UrlValue {
-    /// Takes `url` as typed.
+    /// Takes `url` as typed, and encodes its commas.
     pub fn new(url: &str) -> Result<Self, ValueError> {
-        // A comma would end the value. A server takes the percent form for the same address.
+        // A comma would end the value. A server accepts the percent form of the same address.
         let url = url.replace(',', "%2C");
         let name = "web address";
         check(&url, MAX_URL_BYTES).map_err(|problem| ValueError::Text { name, problem })?;
         Ok(Self(url))
     }
 
-    /// Address as it is sent.
+    /// Returns the address as Azel sends it.
     pub fn as_str(&self) -> &str {
         &self.0
     }
 }
 
-/// A password. Neither `Debug` nor anything else prints it; the unit itself sends it back
-/// in clear.
+/// A password. Neither `Debug` nor other code prints it, but the unit returns it in clear.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Password(String);
 
@@ -97,13 +96,13 @@ impl Password {
         Ok(Self(text.to_owned()))
     }
 
-    /// A password as a unit reported it.
+    /// Returns a password as a unit reported it.
     pub(super) fn reported(text: &str) -> Self {
-        // Unchecked, because a unit may hold a password that Azel could not send.
+        // The password is unchecked, because a unit may hold a password that Azel could not send.
         Self(text.to_owned())
     }
 
-    /// The password itself. Never log it.
+    /// Returns the password in clear. Never log it.
     pub fn reveal(&self) -> &str {
         &self.0
     }

@@ -55,7 +55,7 @@ impl Word {
         Self::Reduction,
     ];
 
-    /// Word on the wire, without `?` or `=`.
+    /// Returns the word on the wire, without `?` or `=`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Version => "VERSION",
@@ -83,7 +83,7 @@ impl Word {
         }
     }
 
-    /// Word with this exact name.
+    /// Returns the word with this exact name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|word| word.name() == name)
     }
@@ -98,14 +98,14 @@ impl fmt::Display for Word {
 /// Verb of a word: the sign that ends it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Verb {
-    /// `?`: ask for values.
+    /// `?`: a question for values.
     Query,
-    /// `=`: set values or do something.
+    /// `=`: a setting or an action.
     Set,
 }
 
 impl Verb {
-    /// Sign on the wire.
+    /// Returns the sign on the wire.
     pub const fn sign(self) -> char {
         match self {
             Self::Query => '?',

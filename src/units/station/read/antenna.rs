@@ -1,4 +1,4 @@
-//! Reads one antenna of the station file.
+//! Reading of one antenna of the station file.
 
 use std::ops::RangeInclusive;
 
@@ -57,7 +57,7 @@ impl TableFields<'_> {
         })
     }
 
-    /// The id in the file, unless another antenna has it; else a free one.
+    /// Returns the id in the file, or a free id if another antenna has that id.
     fn antenna_id(&mut self, before: &[Antenna], used_ids: &[AntennaId]) -> AntennaId {
         let free = AntennaId::free(AntennaId::FIRST, used_ids);
         let Some(value) = self.table.remove("id") else { return free };
@@ -69,7 +69,7 @@ impl TableFields<'_> {
         })
     }
 
-    /// An antenna with this connection and the defaults of its make.
+    /// Returns an antenna with this connection and the defaults of its make.
     fn connected(&mut self, specs: &[&'static ControllerSpec]) -> Option<Antenna> {
         let controller = self.text("controller", "");
         let address = self.text("address", "");
@@ -246,7 +246,7 @@ impl TableFields<'_> {
         }
     }
 
-    /// The arrangement follows from the controller; a different one in the file is noted.
+    /// Notes a mount type that differs from the arrangement of the controller.
     fn mount_type(&mut self, kind: &str) {
         match self.table.remove("type") {
             None => {}
@@ -256,7 +256,7 @@ impl TableFields<'_> {
     }
 }
 
-/// Range of the upper end of an axis whose lower end is `start`.
+/// Returns the range of the upper end of an axis whose lower end is `start`.
 fn above(
     start: f64,
     span: &RangeInclusive<f64>,
@@ -265,7 +265,7 @@ fn above(
     (start + span.start()).max(*range.start())..=(start + span.end()).min(*range.end())
 }
 
-/// Error text that names the known makes.
+/// Returns the error text with the known makes.
 fn any_of(specs: &[&ControllerSpec]) -> String {
     let keys: Vec<String> = specs.iter().map(|spec| format!("{:?}", spec.key)).collect();
     match keys.split_last() {

@@ -1,4 +1,4 @@
-//! Reads favourites and groups of satellites with their priorities and limits.
+//! Reading of favourites and groups of satellites with their priorities and limits.
 
 use toml::Value;
 
@@ -47,7 +47,7 @@ impl TableFields<'_> {
         Some(Favourite { satellite: self.satellite()?, priority, limits, sources })
     }
 
-    /// Names of sources, each once. The list of sources is another file, so any name is valid.
+    /// Reads names of sources, each once. Another file lists the sources, so any name is valid.
     fn sources(&mut self) -> Vec<String> {
         const KEY: &str = "sources";
         let Some(value) = self.table.remove(KEY) else { return Vec::new() };
@@ -64,7 +64,7 @@ impl TableFields<'_> {
         names
     }
 
-    /// A group without a name is left out: rules could not name it.
+    /// Reads a group. Omits a group without a name, because rules could not name it.
     pub(super) fn satellite_group(&mut self, antennas: &[AntennaId]) -> Option<SatelliteGroup> {
         let group = SatelliteGroup {
             name: self.text("name", ""),
@@ -102,8 +102,8 @@ impl TableFields<'_> {
         }
     }
 
-    /// Antennas that the station does not have are left out with a note. Where none is left, no
-    /// antenna may take the passes: a limit is not widened.
+    /// Reads the antennas of a limit. Omits unknown antennas with a note. If no antenna remains,
+    /// none may take the passes, because a limit must not become wider.
     fn antennas_of_limits(&mut self, antennas: &[AntennaId]) -> Option<Vec<AntennaId>> {
         const KEY: &str = "antennas";
         let ids: Result<Vec<u32>, toml::de::Error> = self.table.remove(KEY)?.try_into();

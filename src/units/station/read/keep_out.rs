@@ -1,5 +1,5 @@
-//! Reads keep-outs and Sun avoidance. An entry that cannot be read does not hold, and the
-//! operator must know: that is worse than a setting at its default.
+//! Reading of keep-outs and Sun avoidance. An unreadable entry does not apply, and the operator
+//! must know: this is worse than a setting at its default.
 
 use toml::Value;
 
@@ -7,8 +7,8 @@ use super::{NoteReason, TableFields};
 use crate::station::{Antenna, Entered, KeepOut, SunAvoidance, ranges};
 
 impl TableFields<'_> {
-    /// Reads the keep-outs. A wrong value is replaced by the stricter one; a keep-out
-    /// without usable corners is left out with a note.
+    /// Reads the keep-outs. Replaces a wrong value with a stricter one, and omits a keep-out
+    /// without usable corners with a note.
     pub(super) fn keep_outs(&mut self, antennas: &[Antenna]) -> Vec<KeepOut> {
         let tables = match self.table.remove("keep_out") {
             None => return Vec::new(),
@@ -78,7 +78,7 @@ impl TableFields<'_> {
         Ok(KeepOut { name, reason, entered, antenna, margin_deg, zone })
     }
 
-    /// A margin that is too large becomes the largest one, not the default.
+    /// Reads the margin. A margin that is too large becomes the max, not the default.
     fn margin_deg(&mut self) -> f64 {
         let written = self.table.get("margin_deg").and_then(|value| {
             value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
@@ -89,7 +89,8 @@ impl TableFields<'_> {
         self.number("margin_deg", &ranges::MARGIN_DEG, default)
     }
 
-    /// A keep-out of an unknown antenna holds for the whole site.
+    /// Reads the antenna of a keep-out. With an unknown antenna, the keep-out applies to the whole
+    /// site.
     fn antenna_of_keep_out(&mut self, antennas: &[Antenna]) -> Option<String> {
         let value = self.table.remove("antenna")?;
         let found = value.as_str().and_then(|name| {

@@ -1,4 +1,4 @@
-//! Reads how long the record is kept.
+//! Reading of the retention of the record.
 
 use super::TableFields;
 use crate::station::{Retention, ranges};

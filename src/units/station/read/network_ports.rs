@@ -1,4 +1,4 @@
-//! Reads the ports of the antennas. A port that cannot be read stays closed.
+//! Reading of the ports of the antennas. An unreadable port stays closed.
 
 use std::net::IpAddr;
 
@@ -8,7 +8,7 @@ use super::{TableFields, catalog_number};
 use crate::station::{AntennaId, NetworkPort};
 
 impl TableFields<'_> {
-    /// The ports of these antennas, at most one of each.
+    /// Reads the ports of these antennas, at most one for each antenna.
     pub(super) fn network_ports(&mut self, antennas: &[AntennaId]) -> Vec<NetworkPort> {
         let mut ports: Vec<NetworkPort> = Vec::new();
         self.list("rotctld", |fields| {
@@ -38,7 +38,7 @@ impl TableFields<'_> {
         Some(NetworkPort { antenna: antenna?, listen: listen.ok()?, allowed })
     }
 
-    /// Addresses that cannot be read are not allowed.
+    /// Reads the allowed addresses. An unreadable address is not allowed.
     fn addresses(&mut self, key: &str) -> Vec<IpAddr> {
         let values = match self.table.remove(key) {
             None => return Vec::new(),

@@ -1,4 +1,4 @@
-//! Reads the settings for notices.
+//! Reading of the settings for notices.
 
 use super::TableFields;
 use crate::station::{Notices, Tones, ranges};

@@ -1,5 +1,5 @@
-//! Reads remembered offsets. What cannot be read is left out with a note: it would lead an antenna
-//! elsewhere.
+//! Reading of saved offsets. The reader omits unreadable offsets with a note, because a default
+//! would point an antenna elsewhere.
 
 use toml::{Table, Value};
 

@@ -1,4 +1,4 @@
-//! Reads how passes are planned and taken.
+//! Reading of the settings for the schedule and for automatic operation.
 
 use std::ops::RangeInclusive;
 
@@ -45,7 +45,7 @@ impl TableFields<'_> {
         })
     }
 
-    /// The settings of an antenna for automatic operation.
+    /// Reads the settings of an antenna for automatic operation.
     pub(super) fn automatic(&mut self) -> Automatic {
         let choices = [
             ("stay", BetweenPasses::Stay),
@@ -61,7 +61,7 @@ impl TableFields<'_> {
         }
     }
 
-    /// The rules of an antenna for the upkeep of its unit.
+    /// Reads the rules of an antenna for the upkeep of its unit.
     pub(super) fn upkeep(&mut self) -> Upkeep {
         let default = Upkeep::default();
         self.inner("upkeep", |fields| Upkeep {
@@ -105,8 +105,8 @@ impl TableFields<'_> {
         time
     }
 
-    /// A rule of which a condition cannot be read is left out: without it, it would hold more
-    /// often than was meant.
+    /// Reads a rule. Omits a rule with an unreadable condition: without the condition, it would
+    /// apply more often than intended.
     pub(super) fn automation_rule(
         &mut self,
         antennas: &[AntennaId],
@@ -155,7 +155,7 @@ impl TableFields<'_> {
         valid.map(RuleSubject::Group)
     }
 
-    /// Hours of which one end cannot be read are none: they are not guessed.
+    /// Reads hours of the day; `None` if an end cannot be read, because a guess would be wrong.
     pub(super) fn hours(&mut self, key: &str) -> Option<HoursOfDay> {
         if !self.table.contains_key(key) {
             return None;
@@ -189,7 +189,7 @@ impl TableFields<'_> {
         }
     }
 
-    /// A number that may be missing.
+    /// Reads a number that may be missing.
     pub(super) fn optional(&mut self, key: &str, range: &RangeInclusive<f64>) -> Option<f64> {
         let number = self.table.contains_key(key).then(|| self.number(key, range, f64::NAN));
         number.filter(|number| !number.is_nan())

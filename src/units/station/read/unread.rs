@@ -1,4 +1,4 @@
-//! Finds the settings on which safety depends among those that could not be read.
+//! Selection of the unreadable settings on which safety depends.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,20 +7,20 @@ use crate::station::AntennaId;
 
 /// Settings of the whole station on which the safety of each antenna depends.
 const STATION_KEYS: [&str; 3] = ["keep_out", "sun_avoidance", "site"];
-/// Settings of an antenna on which its safety depends. Half the beam width is a part of the margin of
-/// each keep-out, and the pointing model decides where the beam is.
+/// Settings of an antenna on which its safety depends. Half the beam width is a part of the margin
+/// of each keep-out, and the pointing model determines the direction of the beam.
 const ANTENNA_KEYS: [&str; 4] = ["limits", "mount", "beam_width_deg", "pointing_model"];
 
 /// Fields of these settings that do not affect safety: texts, and an unknown antenna of a keep-out,
-/// which then holds for all.
+/// which then applies to all.
 const HARMLESS: [&str; 3] = [".name", ".reason", ".antenna"];
 
-/// A setting on which safety depends, and which could not be read.
+/// An unreadable setting on which safety depends.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Unread {
     /// Place in the file, such as `keep_out[0].corners`.
     pub place: String,
-    /// The antenna that it concerns; `None` for all.
+    /// The affected antenna; `None` for all.
     pub antenna: Option<AntennaId>,
 }
 
@@ -64,8 +64,8 @@ fn is_part_of(place: &str, key: &str) -> bool {
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
 }
 
-/// Returns `true` if `written` differs from `key` by one or two letters that were left out, added,
-/// changed or swapped, or only in case and separators.
+/// Returns `true` if `written` differs from `key` only by one or two missing, additional, changed
+/// or swapped letters, or by case and separators.
 fn is_mistyped(written: &str, key: &str) -> bool {
     let letters = |text: &str| -> Vec<char> {
         text.chars()
@@ -74,12 +74,12 @@ fn is_mistyped(written: &str, key: &str) -> bool {
             .collect()
     };
     let (written, key) = (letters(written), letters(key));
-    // Two changes would make one short word of almost any other.
+    // With two changes, one short word would match almost any other.
     let max = if key.len() > 6 { 2 } else { 1 };
     differs_within(&written, &key, max)
 }
 
-/// Returns `true` if at most `max` changes of a letter make `key` of `written`.
+/// Returns `true` if at most `max` changes of a letter turn `written` into `key`.
 fn differs_within(written: &[char], key: &[char], max: usize) -> bool {
     match (written, key) {
         ([a, written @ ..], [b, key @ ..]) if a == b => differs_within(written, key, max),

@@ -4,7 +4,7 @@ use crate::{
     protocol::rc2000c::{Address, Decoder, Reply},
 };
 
-/// An idle unit at 1525 and 750 counts.
+/// Status of an idle unit at 1525 and 750 counts.
 pub(in super::super) const IDLE: &[u8] = b"\x06\x32\x31SBS 6       1525  75039      #@;S\x03\x42";
 
 pub(in super::super) fn status(bytes: &[u8]) -> Status {
@@ -28,7 +28,7 @@ fn mount(elevation_to_deg: f64) -> Mount {
     }
 }
 
-/// Twenty counts a degree.
+/// Returns axes with twenty counts a degree.
 fn calibrated() -> Axes {
     Axes::new(&Calibration {
         azimuth: points([(30, 90.0), (9030, 540.0)]),
@@ -36,7 +36,7 @@ fn calibrated() -> Axes {
     })
 }
 
-/// As south of the equator: the counts grow westwards through north.
+/// Returns axes for a site south of the equator: the counts grow westwards through north.
 fn reversed() -> Axes {
     Axes::new(&Calibration {
         azimuth: points([(30, 450.0), (3630, 270.0)]),
@@ -110,25 +110,25 @@ fn a_shown_azimuth_has_no_angle_until_its_turn_is_known() {
     let lower_end = Axis { minus_limit: true, ..nowhere };
     let upper_end = Axis { plus_limit: true, ..nowhere };
     for (tenths, before, expected_deg) in [
-        // Only one turn of the travel has it.
+        // Only one turn of the travel contains the angle.
         (1800, None, Some(180.0)),
         (3585, None, Some(358.5)),
-        // Both ends of the travel have it.
+        // Both ends of the travel contain the angle.
         (450, None, None),
         (450, Some(nowhere), None),
         (450, Some(axis_at(44.0)), Some(45.0)),
         (450, Some(axis_at(404.0)), Some(405.0)),
-        // Through north.
+        // The axis passes through north.
         (5, Some(axis_at(359.8)), Some(360.5)),
         (3598, Some(axis_at(360.5)), Some(359.8)),
         (3600, Some(axis_at(0.2)), Some(0.0)),
-        // At the end that it comes from.
+        // The axis is at the end from which it moves away.
         (3, Some(lower_end), Some(0.3)),
         (895, Some(upper_end), Some(449.5)),
-        // Noise, and an overrun.
+        // The reading has noise, or the axis has overrun its end.
         (3595, Some(axis_at(0.1)), Some(-0.5)),
         (920, Some(axis_at(449.0)), Some(452.0)),
-        // A display that does not wrap.
+        // The display does not wrap.
         (4000, None, Some(400.0)),
     ] {
         let position = Position::TenthsOfDegree(tenths);
@@ -181,7 +181,7 @@ fn an_axis_that_stays_at_its_limit_is_sent_to_that_end_of_its_travel() {
     };
     let ends = [LimitEnd::CounterClockwise, LimitEnd::Clockwise];
     assert_eq!(ends.map(|end| sent(calibrated(), (90.0, 540.0), end)), [30, 9030]);
-    // Counter-clockwise is where the counts begin, whichever way the angle grows.
+    // The counts begin at the counter-clockwise end, whichever way the angle grows.
     assert_eq!(ends.map(|end| sent(reversed(), (270.0, 450.0), end)), [30, 3630]);
 }
 
@@ -193,7 +193,7 @@ fn an_axis_that_noise_reads_beyond_its_travel_is_sent_to_the_end() {
         calibrated().counts(None, up, Some(&status), &mount(90.0)).unwrap()[0]
     };
     assert_eq!([25, 30, 31, 9030, 9036].map(sent), [30, 30, 31, 9030, 9030]);
-    // An axis that stands far outside is not turned.
+    // Azel does not turn an axis that stands far outside.
     assert_eq!([1, 9060].map(sent), [1, 9060]);
 }
 

@@ -1,4 +1,4 @@
-//! A copy of settings, and the unit it was made of.
+//! Tests of a copy of settings, and of its use on a unit.
 
 use super::GROUPS;
 use crate::device::settings::{

@@ -1,4 +1,4 @@
-//! The values that a command is made from: changes over what the unit holds.
+//! The values of a command: changes, and the unit's values for the rest.
 
 use jiff::Timestamp;
 
@@ -21,7 +21,7 @@ impl Desired<'_> {
         key.get(self.new).or_else(|| key.get(self.unit_values))
     }
 
-    /// A flag; off if it is unknown.
+    /// Returns a flag; `false` if it is unknown.
     pub(super) fn is_on(&self, key: &Key<bool>) -> bool {
         self.find(key) == Some(true)
     }
@@ -30,7 +30,7 @@ impl Desired<'_> {
         self.find(key).ok_or_else(|| missing(key.name))
     }
 
-    /// A whole number that fits into `N`.
+    /// Returns a whole number that fits into `N`.
     pub(super) fn whole<N: TryFrom<i64>>(&self, key: &Key<i64>) -> Result<N, WriteError> {
         N::try_from(self.get(key)?).map_err(|_| missing(key.name))
     }
@@ -40,12 +40,12 @@ impl Desired<'_> {
     }
 }
 
-/// Maps an error of the field `key`.
+/// Returns the conversion of an error of `field`.
 pub(super) fn cannot(field: &'static str) -> impl Fn(ValueError) -> WriteError {
     move |error| WriteError::CannotBeSent { field, reason: unfit(error) }
 }
 
-/// The unit does not report the value, and nobody gave one.
+/// Returns the error for a value that neither the unit reports nor the operator has entered.
 fn missing(field: &'static str) -> WriteError {
     WriteError::CannotBeSent { field, reason: Unfit::Text("has no value yet".to_owned()) }
 }

@@ -1,4 +1,4 @@
-//! General settings (sections 12 and 13). No ranges are documented: these are sensible ones.
+//! General settings (sections 12 and 13). The document gives no ranges; Azel uses plausible ones.
 
 use super::desired::{Desired, cannot};
 use crate::{
@@ -110,7 +110,7 @@ pub(super) fn values(reply: &Reply) -> Option<Values> {
     ]))
 }
 
-/// Sends only the changed values; a sign keeps each of the others.
+/// Returns the command with only the changed values; a sign in each other field keeps its value.
 pub(super) fn write(desired: &Desired<'_>) -> Result<Setting, WriteError> {
     let new = desired.new;
     let change = SettingsChange {

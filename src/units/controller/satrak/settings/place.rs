@@ -54,7 +54,7 @@ pub(super) fn values(reply: &Reply) -> Option<Values> {
     Some(values)
 }
 
-/// The value [`lock_delay`] comes from elsewhere.
+/// Returns the values of the GPS receiver without [`lock_delay`], which STATUS reports.
 pub(super) fn receiver(reply: &Reply) -> Option<Values> {
     let Reply::GpsData(data) = reply else { return None };
     let mut values = place(data.position);
@@ -63,7 +63,7 @@ pub(super) fn receiver(reply: &Reply) -> Option<Values> {
     Some(values)
 }
 
-/// STATUS tells the delay; `GPS_DATA` does not.
+/// Returns the entry of the lock delay, seconds. STATUS reports it; `GPS_DATA` does not.
 pub(in crate::controller::satrak) fn lock_delay(delay_s: f64) -> (&'static str, Value) {
     LOCK_DELAY_S.entry(delay_s)
 }
@@ -76,8 +76,8 @@ fn place(position: Option<Position>) -> Values {
     ])
 }
 
-/// All three always go out: the document does not say whether the place is needed on
-/// automatic.
+/// Returns the command with all three values: the document does not say whether an automatic unit
+/// needs the place.
 pub(super) fn write(desired: &Desired<'_>) -> Result<Setting, WriteError> {
     let position = Position::new(desired.get(&LATITUDE_DEG)?, desired.get(&LONGITUDE_DEG)?)
         .map_err(cannot(LATITUDE_DEG.name))?;

@@ -5,25 +5,25 @@ use crate::{
     protocol::satrak::Faults,
 };
 
-/// A group, as it was read back after a change.
+/// The values of a group that Azel has read back after a change.
 pub(in crate::controller::satrak) struct Proof<'a> {
     pub(in crate::controller::satrak) group: &'static Group,
     /// Requested values.
     pub new: &'a Values,
     /// Values that the unit holds.
     pub(in crate::controller::satrak) unit_values: &'a Values,
-    /// How far the unit's clock is ahead of the computer's, seconds.
+    /// Lead of the unit's clock over the computer's, seconds.
     pub(in crate::controller::satrak) ahead_s: Option<f64>,
 }
 
-/// Returns the keys of the fields that do not hold the requested value.
+/// Function that returns the keys of the fields that do not hold the requested value.
 pub(in crate::controller::satrak) type Differing = fn(&Proof<'_>) -> Vec<&'static str>;
 
-/// Returns why the unit cannot work with what it holds.
+/// Function that returns the reason why the unit cannot use its values.
 pub(in crate::controller::satrak) type Judge = fn(Faults) -> Option<&'static str>;
 
 impl Proof<'_> {
-    /// The keys of the fields for which `is_held` is `false` of the new and the held value.
+    /// Returns the keys of the fields for whose new and current value `is_held` is `false`.
     pub(super) fn differing(
         &self,
         is_held: impl Fn(&Field, &Value, &Value) -> bool,
@@ -37,12 +37,12 @@ impl Proof<'_> {
     }
 }
 
-/// The held values must equal the new ones.
+/// Returns the keys of the fields whose current value differs from the new one.
 pub(super) fn plain(proof: &Proof<'_>) -> Vec<&'static str> {
     proof.differing(|field, new, current| field.kind.same(new, current))
 }
 
-/// No fault speaks against it.
+/// Returns `None`: no fault concerns the group.
 pub(super) fn no_objection(_: Faults) -> Option<&'static str> {
     None
 }

@@ -110,7 +110,8 @@ pub(super) fn write_image(desired: &Desired<'_>) -> Result<Setting, WriteError> 
     Ok(Setting::LoadImage(desired.text(&FILE)?))
 }
 
-/// Where the references are taken from the present position, they are not known before.
+/// Returns the fields that differ. References that the unit takes from its current position are not
+/// known in advance and always match.
 pub(super) fn angles_differing(proof: &Proof<'_>) -> Vec<&'static str> {
     let takes_present = REFERENCE.get(proof.new) == Some(PRESENT);
     proof.differing(|field, new, current| {

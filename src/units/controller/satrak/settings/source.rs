@@ -17,9 +17,9 @@ const ON_ERROR: Key<i64> = Key::choice("on_error", &[(0, "Stop tracking"), (1, "
 pub const CONTINUE_TRACKING: Key<bool> = Key::flag("continue_tracking");
 const PERIOD_DAYS: Key<i64> = Key::integer("period_days", 0, 365);
 
-/// In the groups [`FILE`] and [`FTP`].
+/// File name in the groups [`FILE`] and [`FTP`].
 pub const FILE_NAME: Key<String> = Key::text("file", text);
-/// In the group [`FILE`].
+/// Satellite name in the group [`FILE`].
 pub const SATELLITE_NAME: Key<String> = Key::text("name", text);
 pub const PERIOD: Key<i64> = Key::integer("period", 0, 365);
 pub const CATALOG_NUMBER: Key<i64> = Key::integer("catalog_number", 0, 999_999_999);
@@ -31,7 +31,7 @@ pub const ADDRESS: Key<String> = Key::text("address", text);
 pub const USER: Key<String> = Key::text("user", text);
 pub const PASSWORD: Key<Secret> = Key::password("password", password);
 pub const PORT: Key<i64> = Key::integer("port", 1, 65_535);
-/// In the group [`FTP`].
+/// Satellite name in the group [`FTP`].
 pub const SATELLITE: Key<String> = Key::text("satellite", text);
 
 const SATELLITE_OF_FILE: &str = "satellite_of_file";
@@ -111,7 +111,7 @@ pub(super) fn file(reply: &Reply) -> Option<Values> {
         SATELLITE_NAME.entry(satellite.name.clone()),
         PERIOD.entry(satellite.period.into()),
     ]);
-    // Both are 0 while the unit has found no satellite.
+    // Both values are 0 while the unit has found no satellite.
     if satellite.catalog_number > 0 {
         values.extend([
             CATALOG_NUMBER.entry(satellite.catalog_number.into()),
@@ -178,7 +178,8 @@ pub(super) fn write_ftp(desired: &Desired<'_>) -> Result<Setting, WriteError> {
     }))
 }
 
-/// An address is on the unit as it was sent: with its commas encoded.
+/// Returns the fields that differ. The unit stores an address as Azel sent it, with its commas
+/// encoded.
 pub(super) fn web_differing(proof: &Proof<'_>) -> Vec<&'static str> {
     proof.differing(|field, new, current| match new {
         Value::Text(url) => {
@@ -188,7 +189,8 @@ pub(super) fn web_differing(proof: &Proof<'_>) -> Vec<&'static str> {
     })
 }
 
-/// The unit takes any name, and reports afterwards that it does not find it.
+/// Returns the unit's objection to the file. The unit accepts any name, and reports later that the
+/// name does not exist.
 pub(super) fn judge_file(faults: Faults) -> Option<&'static str> {
     let is_active = |kind| faults.active().any(|active| active == kind);
     if is_active(FaultKind::TleMissing) {

@@ -15,8 +15,8 @@ use crate::{
     protocol::satrak::{ClockTime, Reply, Setting, TrackWindow},
 };
 
-/// Accuracy of the unit's clock, seconds: the command has no parts of a second, and the answer
-/// takes its way.
+/// Max error of a correct clock, seconds: the command has no fraction of a second, and the answer
+/// takes time to arrive.
 const CLOCK_RIGHT_S: f64 = 2.0;
 
 pub const START: Key<Timestamp> = Key::time("start");
@@ -42,9 +42,9 @@ pub static WINDOW: Group = Group {
     ],
 };
 
-/// Source of the unit's clock.
+/// Source of the unit's clock: this computer.
 pub const FROM_THIS_PC: i64 = 0;
-/// See [`FROM_THIS_PC`].
+/// Source of the unit's clock: GPS.
 pub const FROM_GPS: i64 = 1;
 
 const TIME: Key<Timestamp> = Key::time("time");
@@ -70,25 +70,26 @@ pub(super) fn window(reply: &Reply) -> Option<Values> {
     Some(Values::from([START.entry(window.start), STOP.entry(window.stop)]))
 }
 
-/// A unit that updates its clock from GPS is left alone: it would take the setting back.
+/// Description of the clock setting. Azel does not set the clock of a unit that updates it from
+/// GPS, because the unit would overwrite it.
 pub(in crate::controller::satrak) static CLOCK_SETTING: ClockSetting = ClockSetting {
     group: CLOCK.key,
     from_here: || Values::from([SET_FROM.entry(FROM_THIS_PC)]),
     is_kept_by_unit: |values| IS_FROM_GPS.get(values) == Some(true),
 };
 
-/// The values [`ahead`] and [`is_from_gps`] come from elsewhere.
+/// Returns the values of a clock reply. [`ahead`] and [`is_from_gps`] have other sources.
 pub(super) fn clock(reply: &Reply) -> Option<Values> {
     let Reply::Clock(clock) = reply else { return None };
     Some(Values::from([TIME.entry(clock.time)]))
 }
 
-/// How far the unit's clock is ahead of the computer's, as it is shown.
+/// Returns the lead of the unit's clock over the computer's as shown, tenths of a second.
 pub(in crate::controller::satrak) fn ahead(clock: &UnitClock) -> (&'static str, Value) {
     AHEAD_S.entry((clock.ahead_s * 10.0).round() / 10.0)
 }
 
-/// STATUS tells whether the unit has updated its clock from GPS; TIME does not.
+/// Returns the entry for a clock that the unit updates from GPS. STATUS reports it; TIME does not.
 pub(in crate::controller::satrak) fn is_from_gps(is_from_gps: bool) -> (&'static str, Value) {
     IS_FROM_GPS.entry(is_from_gps)
 }
@@ -108,8 +109,8 @@ pub(super) fn write_window(desired: &Desired<'_>) -> Result<Setting, WriteError>
     TrackWindow::new(start, stop).map(Setting::StartStopTime).map_err(cannot(STOP.name))
 }
 
-/// Sent just after a full second of the computer's clock, because the command has no parts of
-/// a second.
+/// Returns the command for the clock. Azel sends it just after a full second of the computer's
+/// clock, because the command has no fraction of a second.
 pub(super) fn write_clock(desired: &Desired<'_>) -> Result<Setting, WriteError> {
     if desired.get(&SET_FROM).unwrap_or(FROM_THIS_PC) == FROM_GPS {
         return Ok(Setting::RtcReupdate);
@@ -118,7 +119,8 @@ pub(super) fn write_clock(desired: &Desired<'_>) -> Result<Setting, WriteError> 
     ClockTime::new(nearest).map(Setting::Time).map_err(cannot(SET_FROM.name))
 }
 
-/// GPS knows the time better than this computer.
+/// Returns the fields that differ; none for a clock set from GPS, which is more accurate than this
+/// computer.
 pub(super) fn clock_differing(proof: &Proof<'_>) -> Vec<&'static str> {
     let from_gps = SET_FROM.get(proof.new) == Some(FROM_GPS);
     let is_right = proof.ahead_s.is_some_and(|ahead_s| ahead_s.abs() <= CLOCK_RIGHT_S);

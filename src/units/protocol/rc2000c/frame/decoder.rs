@@ -4,13 +4,13 @@ use super::{
     Address, Command, ENVELOPE_BYTES, ETX, Frame, Header, MAX_FRAME_BYTES, OFFLINE, checksum,
 };
 
-/// Maximum of bytes that wait between two calls; more are dropped.
+/// Max number of bytes that wait between two calls; the decoder drops more.
 const MAX_PENDING_BYTES: usize = 1024;
 
 /// Reason why bytes that began like a frame are not one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum FrameError {
-    /// The checksum does not match the frame.
+    /// A checksum that does not match the frame.
     #[error("checksum {received:02X} instead of {computed:02X}")]
     BadChecksum {
         /// Checksum in the frame.
@@ -18,15 +18,15 @@ pub enum FrameError {
         /// Checksum of the frame's bytes.
         computed: u8,
     },
-    /// No reply to this command has this length.
+    /// A length that no reply to this command has.
     #[error("reply to {code:02X} with {data_bytes} bytes of data")]
     BadLength {
         /// Command code of the frame.
         code: u8,
-        /// Characters between code and ETX.
+        /// Number of characters between code and ETX.
         data_bytes: usize,
     },
-    /// A byte that belongs in no code and no data: a control byte, or one with the eighth bit
+    /// A byte that belongs to no code and no data: a control byte, or a byte with the eighth bit
     /// set.
     #[error("byte {byte:02X} at place {index}")]
     BadByte {
@@ -34,31 +34,31 @@ pub enum FrameError {
         /// Index of the byte, counted from 0 at the header.
         index: usize,
     },
-    /// More than [`MAX_FRAME_BYTES`] without an end.
+    /// More than [`MAX_FRAME_BYTES`] bytes without an end.
     #[error("frame longer than {MAX_FRAME_BYTES} bytes")]
     TooLong,
-    /// The line went quiet within a frame.
+    /// A frame in which the line went quiet.
     #[error("frame ends after {bytes} bytes")]
     Incomplete {
-        /// Bytes received.
+        /// Number of received bytes.
         bytes: usize,
     },
 }
 
-/// Splits a byte stream into the frames of one unit, on either side.
+/// Decoder of a byte stream into the frames of one unit, for the console or the simulator.
 ///
-/// Push the bytes that were read, then take frames until `None`. When nothing has come for
-/// longer than the characters of one frame may be apart, call [`Self::line_is_quiet`]. The
-/// stream may be cut and merged anywhere. Holds at most 1 KiB.
+/// Push the bytes that were read, then take frames until `None`. Call [`Self::line_is_quiet`] after
+/// a silence longer than the gap between two characters of a frame. The stream may be cut and
+/// merged anywhere. The decoder buffers at most 1 KiB.
 ///
-/// Only a header followed by the own address begins a frame, and a reply has one of the
-/// lengths of its command. So the checksum is known by its place and may look like any
-/// control byte, and the XOR refuses every single wrong bit. A broken frame loses only its
-/// header; the rest is read again.
+/// Only a header followed by the unit's address begins a frame, and a reply has one of the lengths
+/// of its command. The place of the checksum is therefore known, and it may equal any control byte.
+/// The XOR detects every single wrong bit. A broken frame loses only its header; the decoder reads
+/// the rest again.
 ///
-/// One reply inside another is the limit of this protocol without parity: with one bit of
-/// its second letter wrong, a status whose satellite name begins with `FC` or `F#` can
-/// read as an offline reply if the third letter is the checksum of that.
+/// A reply inside another reply is the limit of this protocol without parity. A status whose
+/// satellite name begins with `FC` or `F#` may read as an offline reply. This happens if one bit of
+/// the second letter is wrong, and the third letter is the checksum of the offline reply.
 #[derive(Debug)]
 pub struct Decoder {
     address: Address,
@@ -66,23 +66,23 @@ pub struct Decoder {
     skipped_bytes: u64,
 }
 
-/// Judgement of the beginning of the pending bytes.
+/// Judgement on the beginning of the pending bytes.
 enum FrameVerdict {
-    /// Undecided until more bytes come.
+    /// Undecided: more bytes have to come.
     Open,
-    /// Not a frame of this unit.
+    /// Bytes that begin no frame of this unit.
     Foreign,
     Broken(FrameError),
     Whole(Frame),
 }
 
 impl Decoder {
-    /// Decoder for the frames of the unit at `address`.
+    /// Returns a decoder for the frames of the unit at `address`.
     pub const fn new(address: Address) -> Self {
         Self { address, pending: Vec::new(), skipped_bytes: 0 }
     }
 
-    /// Takes bytes of the stream. Bytes that do not fit while nobody takes frames are dropped.
+    /// Takes received bytes. Drops bytes that do not fit while the caller takes no frames.
     pub fn push(&mut self, bytes: &[u8]) {
         let room = MAX_PENDING_BYTES.saturating_sub(self.pending.len());
         let (fitting, lost) = bytes.split_at_checked(room).unwrap_or((bytes, &[]));
@@ -90,7 +90,7 @@ impl Decoder {
         self.skipped_bytes += lost.len() as u64;
     }
 
-    /// Gives up an incomplete frame, and reads the bytes behind its header.
+    /// Gives up an incomplete frame, and reads the bytes after its header.
     pub fn line_is_quiet(&mut self) -> Vec<Result<Frame, FrameError>> {
         let mut results = Vec::new();
         loop {
@@ -99,7 +99,7 @@ impl Decoder {
             if bytes == 0 {
                 return results;
             }
-            // A lone header is noise; with the address after it, it was a frame.
+            // A lone header is noise; a header with the address after it was a frame.
             if bytes > 1 {
                 results.push(Err(FrameError::Incomplete { bytes }));
             }
@@ -107,8 +107,8 @@ impl Decoder {
         }
     }
 
-    /// Number of bytes that belonged to no frame so far: noise, other units' frames and broken
-    /// ones.
+    /// Returns the number of bytes so far that belonged to no frame: noise, other units' frames and
+    /// broken frames.
     pub const fn skipped_bytes(&self) -> u64 {
         self.skipped_bytes
     }
@@ -132,7 +132,7 @@ impl Decoder {
             Some(byte) if *byte != self.address.number() => return FrameVerdict::Foreign,
             Some(_) => {}
         }
-        // Code and data are printable (appendix D), so the first ETX among them is the real one.
+        // Code and data are printable (appendix D), so the first ETX after them ends the frame.
         for (index, byte) in self.pending.iter().copied().enumerate().skip(2) {
             match byte {
                 ETX if index > 2 => return self.judge_whole(header, index),
@@ -154,8 +154,8 @@ impl Decoder {
         ) else {
             return FrameVerdict::Open;
         };
-        // The length is judged first. A false frame then does not wait for a checksum that never
-        // comes.
+        // The decoder judges the length first. A false frame then does not wait for a checksum that
+        // never comes.
         if !is_known_form(header, code, data) {
             return FrameVerdict::Broken(FrameError::BadLength { code, data_bytes: data.len() });
         }
@@ -179,7 +179,8 @@ impl Iterator for Decoder {
             match self.judge() {
                 FrameVerdict::Open => return None,
                 FrameVerdict::Foreign => self.skip(1),
-                // Only the header goes, because a whole frame may begin right behind it.
+                // The decoder drops only the header, because a whole frame may begin right after
+                // it.
                 FrameVerdict::Broken(error) => {
                     self.skip(1);
                     return Some(Err(error));
@@ -193,8 +194,8 @@ impl Iterator for Decoder {
     }
 }
 
-/// Returns `true` if a frame may hold `data`. A command may have any length, for a unit answers
-/// wrong ones too.
+/// Returns `true` if a frame may contain `data`. A command may have any length, because a unit also
+/// answers wrong commands.
 fn is_known_form(header: Header, code: u8, data: &[u8]) -> bool {
     match header {
         Header::Command => true,
@@ -209,7 +210,7 @@ fn is_known_form(header: Header, code: u8, data: &[u8]) -> bool {
 }
 
 /// Returns `true` if `data` is a device type. Firmware of the RC2000A before 2.6 repeats a wrong
-/// code in this one reply, and the RC2000C shares its code base.
+/// code in this reply, and the RC2000C shares its code base.
 pub(in super::super) fn is_device_type(data: &[u8]) -> bool {
     data.len() + ENVELOPE_BYTES == Command::DeviceType.reply_bytes()
         && (data.starts_with(b"2KC") || data.starts_with(b"RC2K"))

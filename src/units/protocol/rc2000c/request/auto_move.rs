@@ -1,4 +1,4 @@
-//! Auto moves, which the unit runs until it arrives.
+//! Auto moves, which continue until the unit arrives.
 
 use super::{Polarity, PolarizationUnits, ValueError};
 use crate::protocol::rc2000c::SatelliteName;
@@ -15,8 +15,8 @@ enum Target {
 }
 
 impl AutoMove {
-    /// Move to a stored satellite and, if given, one of its polarizations. The name must be
-    /// one that the unit listed.
+    /// Returns a move to a stored satellite and, if given, to one of its polarizations. The name
+    /// must come from the unit's list.
     pub fn satellite(name: SatelliteName, polarity: Option<Polarity>) -> Result<Self, ValueError> {
         if name.is_all_digits() {
             Err(ValueError::NameIsPosition)
@@ -27,22 +27,22 @@ impl AutoMove {
         }
     }
 
-    /// Move to a position of both axes, in counts of their sensors; never angles.
+    /// Returns a move to a position of both axes in counts of their sensors; never angles.
     pub const fn position(az_counts: u16, el_counts: u16) -> Self {
         Self(Target::Position { az_counts, el_counts })
     }
 
-    /// Move to a position of the polarization alone.
+    /// Returns a move to a position of the polarization alone.
     pub const fn polarization(position: PolarizationUnits) -> Self {
         Self(Target::Polarization(position))
     }
 
-    /// Satellite and its polarization, if that is the target.
+    /// Returns the satellite and its polarization, if the target is a satellite.
     pub const fn to_satellite(&self) -> Option<(SatelliteName, Option<Polarity>)> {
         if let Target::Satellite(name, polarity) = self.0 { Some((name, polarity)) } else { None }
     }
 
-    /// Azimuth and elevation in counts, if a position is the target.
+    /// Returns azimuth and elevation in counts, if the target is a position.
     pub const fn to_position(&self) -> Option<(u16, u16)> {
         if let Target::Position { az_counts, el_counts } = self.0 {
             Some((az_counts, el_counts))
@@ -51,7 +51,7 @@ impl AutoMove {
         }
     }
 
-    /// Position of the polarization, if nothing else turns.
+    /// Returns the position of the polarization, if only the polarization turns.
     pub const fn to_polarization(&self) -> Option<PolarizationUnits> {
         if let Target::Polarization(position) = self.0 { Some(position) } else { None }
     }
@@ -69,7 +69,7 @@ impl AutoMove {
                 data
             }
             Target::Position { az_counts, el_counts } => {
-                // Zeros fill both numbers, because ten digits tell a position from a name.
+                // Zeros fill both numbers, because ten digits distinguish a position from a name.
                 format!(" {az_counts:05}{el_counts:05}").into_bytes()
             }
             // The five zeros only keep the length: all forms of this command have 16 bytes.

@@ -1,4 +1,4 @@
-//! Requests that can make metal move.
+//! Requests that can move the antenna or the polarization.
 
 use std::time::Duration;
 
@@ -7,24 +7,23 @@ use super::polarization::PolarizationMove;
 use super::value::{ValueError, checked};
 use crate::protocol::rc2000c::Command;
 
-/// Shortest jog; the unit's timer runs in steps of about this.
+/// Min duration of a jog; the unit's timer has steps of about this duration.
 pub const MIN_JOG: Duration = Duration::from_millis(150);
-/// Longest jog that fits in the field.
+/// Max duration of a jog, which fills the field.
 pub const MAX_JOG: Duration = Duration::from_millis(9999);
 
-/// A request that can make metal move. Only the gate of the driver may encode one.
+/// A request that can move the antenna or the polarization. Only the driver's gate may encode it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Motion {
-    /// Go to a target. Runs until the unit arrives.
+    /// Move to a target, which continues until the unit arrives.
     AutoMove(AutoMove),
-    /// Turn one axis for a time. Ends by itself.
+    /// Turn of one axis for a fixed time.
     Jog(Jog),
-    /// Turn the polarization.
+    /// Turn of the polarization.
     Polarization(PolarizationMove),
-    /// Clear the alarm of a drive. The drive takes power again, and a pending motion may go
-    /// on.
+    /// Reset of a drive alarm. The drive takes power again, and a pending motion may continue.
     ResetDrive(DriveReset),
-    /// Clear the error of the track mode, which then starts again.
+    /// Reset of an error of the track mode, which then starts again.
     RestartTracking,
 }
 
@@ -42,8 +41,8 @@ pub enum Direction {
 }
 
 impl Direction {
-    /// All directions with their letters. E means counter-clockwise here, but W does in
-    /// commands for the polarization.
+    /// All directions with their letters. W means clockwise here, but counter-clockwise in commands
+    /// for the polarization.
     pub(super) const ALL: [(Self, u8); 4] = [
         (Self::CounterClockwise, b'E'),
         (Self::Clockwise, b'W'),
@@ -68,8 +67,8 @@ pub struct Jog {
 }
 
 impl Jog {
-    /// A jog of 150 to 9999 ms, cut to whole milliseconds. The unit rounds to its own steps of
-    /// about 150 ms.
+    /// Returns a jog of 150 to 9999 ms, rounded down to whole milliseconds. The unit rounds it to
+    /// its own steps of about 150 ms.
     pub fn new(direction: Direction, speed: Speed, duration: Duration) -> Result<Self, ValueError> {
         let given_ms = u64::try_from(duration.as_millis()).unwrap_or(u64::MAX);
         let [min_ms, max_ms] = [MIN_JOG, MAX_JOG].map(|bound| bound.as_millis() as u64);
@@ -91,7 +90,7 @@ impl Jog {
 
     fn data(self) -> Vec<u8> {
         let found = Direction::ALL.into_iter().find(|(direction, _)| *direction == self.direction);
-        // X would stop the antenna, should a direction ever be missing in the list.
+        // The letter X stops the antenna, in case a direction is missing in the list.
         let letter = char::from(found.map_or(b'X', |(_, letter)| letter));
         let speed = match self.speed {
             Speed::Slow => 'S',
@@ -101,12 +100,12 @@ impl Jog {
     }
 }
 
-/// Drive whose alarm is cleared.
+/// Drive whose alarm the request clears.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DriveReset {
     Azimuth,
     Elevation,
-    /// Refused without a rotating feed.
+    /// Drive of the polarization. A unit without a rotating feed refuses this reset.
     Polarization,
 }
 

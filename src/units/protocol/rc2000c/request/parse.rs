@@ -1,4 +1,4 @@
-//! Requests read from frames, as a unit does.
+//! Decoding of requests from frames, as a unit does.
 
 use std::time::Duration;
 
@@ -11,16 +11,16 @@ use crate::protocol::rc2000c::{Command, Frame, Header, SatelliteName};
 /// Reason why a frame is not a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum RequestError {
-    /// The frame is a reply.
+    /// A frame that is a reply.
     #[error("no command")]
     NotACommand,
-    /// No command has this code.
+    /// A code that no command has.
     #[error("unknown command {0:02X}")]
     UnknownCode(u8),
-    /// Wrong length for this command.
+    /// A wrong length for this command.
     #[error("{data_bytes} bytes of data")]
     Length {
-        /// Characters between code and ETX.
+        /// Number of characters between code and ETX.
         data_bytes: usize,
     },
     /// A value that the command does not have.
@@ -29,7 +29,7 @@ pub enum RequestError {
 }
 
 impl Request {
-    /// Reads a command. A jog shorter than 150 ms counts as one of 150 ms.
+    /// Reads a command. A jog shorter than 150 ms counts as 150 ms.
     pub fn parse(frame: &Frame) -> Result<Self, RequestError> {
         if frame.header() != Header::Command {
             return Err(RequestError::NotACommand);
@@ -44,7 +44,7 @@ impl Request {
             Command::Polarization => 1,
             Command::SatelliteName | Command::Miscellaneous => 2,
         };
-        // The code fixes the length, and a unit answers any other one with NAK (appendix E).
+        // The code fixes the length, and a unit answers any other length with NAK (appendix E).
         if data.len() != data_bytes {
             return Err(RequestError::Length { data_bytes: data.len() });
         }
@@ -92,7 +92,7 @@ fn jog(data: &[u8]) -> Option<Request> {
         _ => return None,
     };
     let duration = Duration::from_millis(number(duration)?.into());
-    // X comes last: appendix E wants a valid speed and duration for a stop too.
+    // The test for X comes last, because appendix E requires a valid speed and duration for a stop.
     if STOP.first() == Some(letter) {
         return Some(Request::Stop);
     }

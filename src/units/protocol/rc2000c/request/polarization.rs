@@ -2,7 +2,7 @@
 
 use super::value::{ValueError, checked};
 
-/// Highest position, that of a rotating feed.
+/// Max position, which only a rotating feed reaches.
 const MAX_POLARIZATION: u16 = 1023;
 
 /// One of the two stored polarizations of a satellite.
@@ -18,35 +18,35 @@ pub enum Polarity {
 pub struct PolarizationUnits(u16);
 
 impl PolarizationUnits {
-    /// A position from 0 to 1023.
+    /// Returns a position, or an error outside 0 to 1023.
     pub fn new(units: u16) -> Result<Self, ValueError> {
-        // The command does not name the device, so the wider range of the rotating feed holds.
+        // The command does not name the device, so the wider range of the rotating feed applies.
         checked("polarization", units.into(), 0, MAX_POLARIZATION.into())?;
         Ok(Self(units))
     }
 
-    /// Number on the line.
+    /// Returns the number on the line.
     pub const fn units(self) -> u16 {
         self.0
     }
 }
 
-/// Move of the polarization (appendix E, command 34h). The duration of a jog is set in the
-/// unit.
+/// Move of the polarization (appendix E, command 34h). The unit's settings determine the duration
+/// of a jog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PolarizationMove {
-    /// Clockwise for a moment.
+    /// Short turn clockwise.
     JogClockwise,
-    /// Counter-clockwise for a moment.
+    /// Short turn counter-clockwise.
     JogCounterClockwise,
-    /// To the stored polarization of the satellite nearest in azimuth.
+    /// Turn to the stored polarization of the satellite nearest in azimuth.
     ToStored(Polarity),
 }
 
 impl PolarizationMove {
     pub(super) const ALL: [(Self, u8); 4] = [
         (Self::JogClockwise, b'C'),
-        // Not a slip: W is clockwise in a jog of the azimuth, and counter-clockwise here.
+        // W means clockwise in a jog of the azimuth, but counter-clockwise here.
         (Self::JogCounterClockwise, b'W'),
         (Self::ToStored(Polarity::Horizontal), b'H'),
         (Self::ToStored(Polarity::Vertical), b'V'),

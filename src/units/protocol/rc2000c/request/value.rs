@@ -1,4 +1,4 @@
-//! Checks of values when they are built.
+//! Checks of values at their construction.
 
 /// Reason why a value cannot be sent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -11,10 +11,10 @@ pub enum ValueError {
         min: u64,
         max: u64,
     },
-    /// The name is ten digits, which a unit would read as a position.
+    /// A name of ten digits, which a unit would read as a position.
     #[error("a name of ten digits means a position")]
     NameIsPosition,
-    /// The name is blank: no satellite has such a name.
+    /// A blank name, which no satellite has.
     #[error("the name is empty")]
     NoName,
 }

@@ -2,54 +2,54 @@
 
 use super::BASE;
 
-/// The most urgent alarm (appendix E, characters 30 and 31). The numbers are
-/// those of the RC2000C; its relatives count otherwise.
+/// The most urgent alarm (appendix E, characters 30 and 31). The numbers are for the RC2000C;
+/// related models use other numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Alarm {
     None,
-    /// The battery of the memory is low.
+    /// Low battery of the memory.
     LowBattery,
     Azimuth,
     Elevation,
-    /// The azimuth count is wrong.
+    /// Wrong azimuth count.
     AzimuthCount,
-    /// The elevation count is wrong.
+    /// Wrong elevation count.
     ElevationCount,
-    /// The azimuth limits are corrupt.
+    /// Corrupt azimuth limits.
     AzimuthLimits,
-    /// The elevation limits are corrupt.
+    /// Corrupt elevation limits.
     ElevationLimits,
-    /// The data for automatic polarization are corrupt.
+    /// Corrupt data for automatic polarization.
     AutoPolarizationData,
-    /// The setting for both axes at once is corrupt.
+    /// Corrupt setting for both axes at once.
     SimultaneousAxes,
-    /// The slow speed of the azimuth is corrupt.
+    /// Corrupt slow speed of the azimuth.
     AzimuthSlowSpeed,
-    /// The slow speed of the elevation is corrupt.
+    /// Corrupt slow speed of the elevation.
     ElevationSlowSpeed,
-    /// The settings of the serial port are corrupt.
+    /// Corrupt settings of the serial port.
     SerialPortData,
-    /// The geographic and elevation data are corrupt.
+    /// Corrupt geographic and elevation data.
     GeoElevationPosition,
-    /// The settings of the track mode are corrupt.
+    /// Corrupt settings of the track mode.
     TrackConfiguration,
-    /// The antenna and receiver data are corrupt.
+    /// Corrupt antenna and receiver data.
     AntennaReceiver,
-    /// The time or date is wrong.
+    /// Wrong time or date.
     TimeOrDate,
-    /// The settings of the angle display are corrupt.
+    /// Corrupt settings of the angle display.
     AngleDisplay,
-    /// The settings of the polarization are corrupt.
+    /// Corrupt settings of the polarization.
     PolarizationOptions,
     Polarization,
-    /// The settings of azimuth and elevation are corrupt.
+    /// Corrupt settings of azimuth and elevation.
     AxisOptions,
     /// Two unknown characters, the lower nibble first.
     Unknown([u8; 2]),
 }
 
 impl Alarm {
-    /// All alarms in the order of their numbers, from 0; after none comes the most urgent.
+    /// All alarms in the order of their numbers, from 0: no alarm first, then the most urgent.
     pub const ALL: [Self; 21] = [
         Self::None,
         Self::LowBattery,
@@ -87,7 +87,7 @@ impl Alarm {
         }
         let number = Self::ALL.into_iter().zip(0_u8..).find(|(alarm, _)| *alarm == self);
         let number = number.map_or(0, |(_, number)| number);
-        // The number takes five bits. Split in two, both characters stay printable.
+        // The number has five bits. Split in two, it gives two printable characters.
         [BASE | number & 0x0f, BASE | number >> 4]
     }
 }

@@ -11,18 +11,18 @@ pub enum Sense {
     Positive,
 }
 
-/// State of an axis drive. When several states hold, the last of them shows.
+/// State of an axis drive. If several states apply, the unit shows the last of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AxisDrive {
-    /// No power.
+    /// A drive without power.
     Still,
-    /// About to turn.
+    /// A drive that is about to turn.
     Pending(Sense),
     Moving(Sense),
     AutoMove,
-    /// Alarm: the axis moved without a command.
+    /// Alarm: motion without a command.
     Runaway,
-    /// Alarm: the sensor saw no motion in spite of a command.
+    /// Alarm: a command without motion at the sensor.
     Jammed,
     /// Alarm: a limit; documented for elevation only.
     Limit,
@@ -47,7 +47,7 @@ impl AxisDrive {
     ];
 
     pub(super) fn from_byte(byte: u8) -> Self {
-        // With other upper bits, the low ones need not be a state at all.
+        // A byte with other upper bits may not be a state.
         let entry = Self::CODES.into_iter().find(|(_, code)| BASE + code == byte);
         entry.map_or(Self::Unknown(byte), |(drive, _)| drive)
     }
@@ -60,11 +60,11 @@ impl AxisDrive {
         entry.map_or(BASE, |(_, code)| BASE + code)
     }
 
-    /// Returns `true` if the axis turns or is about to. An unknown state counts as moving.
+    /// Returns `true` if the axis turns or is about to turn. An unknown state counts as moving.
     pub const fn is_moving(self) -> bool {
         matches!(
             self,
-            // A runaway is motion without a command, so no axis with that alarm counts as still.
+            // A runaway is motion without a command, so an axis with that alarm counts as moving.
             Self::Pending(_) | Self::Moving(_) | Self::AutoMove | Self::Runaway | Self::Unknown(_)
         )
     }
@@ -79,7 +79,7 @@ pub enum PolarizationMotion {
     Still,
     JogClockwise,
     JogCounterClockwise,
-    /// On the way to a stored polarization.
+    /// A turn to a stored polarization.
     ToStored,
     Unknown(u8),
 }

@@ -1,4 +1,4 @@
-//! Polarization in a status: two characters of text, and one for the device and the fine
+//! Polarization in a status: two characters of text, and one character for the device and the fine
 //! part of the position.
 
 use super::BASE;
@@ -8,8 +8,8 @@ const POLAROTOR_STEPS: u16 = 661;
 const POLAROTOR_SHOWN: u16 = 99;
 /// Steps of a rotating feed in one shown value.
 const FEED_STEPS: u16 = 11;
-// A feed at 1023 would show 93, but it is beyond any limit and shows CC.
-/// The highest value of a rotating feed that is shown.
+// A feed at 1023 would show 93, but that position is beyond any limit and shows CC.
+/// Max shown value of a rotating feed.
 const FEED_MAX_SHOWN: u8 = 92;
 
 /// Device that turns the polarization.
@@ -23,14 +23,14 @@ pub enum PolarizationDevice {
     Unknown(u8),
 }
 
-/// Position of the polarization as the text gives it.
+/// Position of the polarization according to the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FeedPosition {
-    /// Coarse number; grows counter-clockwise, seen into the horn.
+    /// Coarse number, which grows counter-clockwise as seen into the horn.
     Shown(u8),
-    /// At the clockwise limit.
+    /// Clockwise limit.
     ClockwiseLimit,
-    /// At the counter-clockwise limit.
+    /// Counter-clockwise limit.
     CounterClockwiseLimit,
     /// Unknown text, as received.
     Unknown([u8; 2]),
@@ -47,7 +47,7 @@ pub struct FeedReading {
 }
 
 impl FeedReading {
-    /// Reading of a polarotor at a position of 0 to 661.
+    /// Returns the reading of a polarotor at a position of 0 to 661.
     pub fn polarotor(units: u16) -> Self {
         let position = match units {
             // Both ends of the count are limits, which show as letters instead (appendix E).
@@ -65,7 +65,7 @@ impl FeedReading {
         Self { device: PolarizationDevice::Polarotor, position, fine_steps }
     }
 
-    /// Reading of a rotating feed within its limits, which are below 1023.
+    /// Returns the reading of a rotating feed within its limits, which are below 1023.
     pub fn rotating_feed(units: u16) -> Self {
         Self {
             device: PolarizationDevice::RotatingFeed,
@@ -74,8 +74,8 @@ impl FeedReading {
         }
     }
 
-    /// Exact position in the unit's count: 0 to 661 or 0 to 1023. At a limit a rotating feed
-    /// does not report it.
+    /// Returns the exact position in the unit's count: 0 to 661 or 0 to 1023. A rotating feed at a
+    /// limit does not report it.
     pub fn units(&self) -> Option<u16> {
         let fine = u16::from(self.fine_steps);
         match (self.device, self.position) {
@@ -89,7 +89,7 @@ impl FeedReading {
             (PolarizationDevice::RotatingFeed, FeedPosition::Shown(shown)) => {
                 Some(u16::from(shown) * FEED_STEPS + fine)
             }
-            // The user sets the limits of a rotating feed, so CW and CC stand for no number there.
+            // The user sets the limits of a rotating feed, so CW and CC have no fixed number there.
             _ => None,
         }
     }
@@ -113,7 +113,7 @@ impl FeedReading {
         Self { device: kind, position, fine_steps: device & 0x0f }
     }
 
-    /// Text, and the character for device and fine part.
+    /// Returns the text, and the character for device and fine part.
     pub(super) fn bytes(self) -> ([u8; 2], u8) {
         let text = match self.position {
             FeedPosition::Shown(shown @ 0..10) => [b' ', b'0' + shown],
@@ -132,13 +132,13 @@ impl FeedReading {
     }
 }
 
-/// First step of a shown value of a polarotor.
+/// Returns the first step of a shown value of a polarotor.
 fn first_step(shown: u8) -> u16 {
-    // Divided last, and rounded down: the manual's own example makes 260 of 39.
+    // The division comes last and rounds down: the example in the manual converts 39 to 260.
     u16::from(shown) * POLAROTOR_STEPS / POLAROTOR_SHOWN
 }
 
-/// Stored polarization that the antenna has.
+/// Stored polarization at which the feed stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PolarizationCode {
     /// Horizontal, shown as H.
@@ -149,7 +149,7 @@ pub enum PolarizationCode {
     Vertical,
     /// Close to vertical, shown as v.
     NearVertical,
-    /// Not at a stored polarization.
+    /// No stored polarization.
     None,
     Unknown(u8),
 }
@@ -158,7 +158,7 @@ pub enum PolarizationCode {
 pub struct PolarizationMode {
     /// Stored polarization on the display.
     pub code: PolarizationCode,
-    /// The unit sets the polarization by itself.
+    /// `true` if the unit sets the polarization automatically.
     pub is_automatic: bool,
 }
 

@@ -1,6 +1,6 @@
-//! Positions of the front panel, in five characters.
+//! Positions on the front panel, in five characters.
 
-/// Length of the field on the line.
+/// Length of the field on the line, bytes.
 const POSITION_BYTES: usize = 5;
 
 /// Axis of a field.
@@ -17,7 +17,7 @@ pub enum Position {
     Counts(u16),
     /// Tenths of a degree, if the unit is configured to show angles.
     TenthsOfDegree(i16),
-    /// At a limit, where no number is shown.
+    /// Limit at which the axis stands; the unit then shows no number.
     Limit(LimitEnd),
     /// Unknown text, as received.
     Unknown([u8; POSITION_BYTES]),
@@ -58,7 +58,8 @@ impl Position {
         if let Some(end) = ends.into_iter().find(|end| end.word() == text) {
             return Self::Limit(end);
         }
-        // Only the point tells degrees from counts: no other field says which of them is displayed.
+        // Only the point distinguishes degrees from counts: no other field shows which of them the
+        // unit displays.
         let number = match text.split_once('.') {
             Some((whole, tenth)) => tenths(whole, tenth).map(Self::TenthsOfDegree),
             None if is_digits(text) => text.parse().ok().map(Self::Counts),
@@ -67,7 +68,7 @@ impl Position {
         number.unwrap_or(Self::Unknown(field))
     }
 
-    /// Text of the field. Angles outside -99.9 to 999.9 degrees do not fit and show as
+    /// Returns the text of the field. Angles outside -99.9 to 999.9 degrees do not fit and show as
     /// asterisks.
     pub(super) fn text(self) -> [u8; POSITION_BYTES] {
         let text = match self {
@@ -89,9 +90,9 @@ fn is_digits(text: &str) -> bool {
     !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit())
 }
 
-/// Tenths of a degree from the texts before and after the point.
+/// Returns tenths of a degree from the texts before and after the point.
 fn tenths(whole: &str, tenth: &str) -> Option<i16> {
-    // The manual does not show an angle below zero, so both `-0.5` and `-.5` are read.
+    // The manual shows no angle below zero, so Azel accepts both `-0.5` and `-.5`.
     let digits = whole.strip_prefix('-').unwrap_or(whole);
     if tenth.len() != 1 || !is_digits(tenth) || !(digits.is_empty() || is_digits(digits)) {
         return None;

@@ -9,27 +9,26 @@ pub enum TrackBand {
     Unknown,
 }
 
-/// Activity of the track mode. The numbers are those of the RC2000C; its relatives count
-/// otherwise.
+/// Activity of the track mode. The numbers are for the RC2000C; related models use other numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Submode {
     Off,
-    /// Asks for data.
+    /// Setup: the unit asks for data.
     Setup,
     AutoEntry,
-    /// Peaks the signal step by step.
+    /// Peaking of the signal step by step.
     Step,
-    /// Searches for the signal.
+    /// Search for the signal.
     Search,
-    /// Follows the learned track.
+    /// Program track along the learned path.
     Program,
-    /// Error: an axis is jammed.
+    /// Error: a jammed axis.
     JammedError,
-    /// Error: an axis is at a limit.
+    /// Error: an axis at a limit.
     LimitError,
     /// Error of a drive.
     DriveError,
-    /// Error: the peak lies at a limit.
+    /// Error: a peak at a limit.
     PeakLimitError,
     /// Error of the azimuth scale factor.
     AzimuthScaleError,
@@ -79,7 +78,7 @@ impl Submode {
         self != Self::Off
     }
 
-    /// Returns `true` if the track mode waits in an error.
+    /// Returns `true` if the track mode has stopped with an error.
     pub fn is_error(self) -> bool {
         self.code() >= 8
     }
@@ -129,9 +128,9 @@ pub enum ReceiverChannel {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Receiver {
     pub channel: ReceiverChannel,
-    /// Level of the channel, 0 to 1023, without unit.
+    /// Signal level of the channel, 0 to 1023, without unit.
     pub agc: u16,
-    /// The unit accepts commands for the polarization; meaningful only while the track mode is
+    /// `true` if the unit accepts commands for the polarization; valid only while the track mode is
     /// on. See [`Status::allows_polarization`](super::Status::allows_polarization).
     pub allows_polarization: bool,
 }
@@ -146,7 +145,7 @@ impl Receiver {
             0x40 => ReceiverChannel::Two,
             _ => ReceiverChannel::Unknown,
         };
-        // Ten bits, five in each character, so that both stay printable.
+        // Each character carries five of the ten bits, so both characters stay printable.
         let agc = u16::from(high & 0x1f) << 5 | u16::from(low & 0x1f);
         Some(Self { channel, agc, allows_polarization: high & 0x20 != 0 })
     }

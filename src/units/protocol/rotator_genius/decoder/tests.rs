@@ -3,7 +3,7 @@
 use super::*;
 use crate::protocol::rotator_genius::Acknowledgement;
 
-/// Recorded at a station: the second rotator points to 43 degrees.
+/// Status recorded at a station: the second rotator points to 43 degrees.
 const WIDE: &[u8] =
     b"|h2\x00999359  0A0   0999999\x00Tower        43359  0A0   0999999\x00Rotator 2   ";
 /// The document's example with its last name, which is blank.
@@ -64,7 +64,8 @@ fn another_form_is_announced_and_taken_from_the_second_on() {
 #[test]
 fn silence_ends_what_is_unfinished() {
     let mut decoder = Decoder::new();
-    // More than the name is missing: no reply, and none together with the next status.
+    // More than the name is missing. This part gives no reply, not even together with the next
+    // status.
     decoder.push(&WIDE[..59]);
     assert_eq!(decoder.unfinished_bytes(), 59);
     assert_eq!(decoder.idle(), [Received::Noise(WIDE[..59].to_vec())]);
@@ -73,7 +74,7 @@ fn silence_ends_what_is_unfinished() {
     assert_eq!(items, []);
     assert_eq!(status(&decoder.idle()[0]).rotators[1].name, "R");
     assert_eq!(decoder.unfinished_bytes(), 0);
-    // The reply hidden behind a piece of a status is found.
+    // The decoder finds the reply after a piece of a status.
     decoder.push(b"|h2|SK");
     assert_eq!(decoder.idle(), [Received::Noise(b"|h2".to_vec()), stop()]);
 }
@@ -105,11 +106,11 @@ fn a_stream_that_nobody_reads_fills_no_memory() {
     }
     assert_eq!(decoder.unfinished_bytes(), MAX_PENDING_BYTES);
     assert!(decoder.next().is_some());
-    // There is room again, but not behind a gap.
+    // The decoder has room again, but must not read on after a gap.
     decoder.push(WIDE);
     let items: Vec<_> = decoder.by_ref().collect();
     assert_eq!(items.len(), MAX_PENDING_BYTES / WIDE.len() - 1);
-    // The cut status is not joined to the next one.
+    // The decoder does not join the cut status to the next status.
     let rest = take(&mut decoder, WIDE);
     assert!(matches!(rest[0], Received::Noise(_)));
     assert_eq!(status(&rest[1]).rotators[1].name, "Rotator 2");

@@ -9,7 +9,7 @@ pub(super) const UNKNOWN: &str = "not in the document";
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Named {
     pub(super) name: &'static str,
-    /// Begins with a space where one belongs between number and unit.
+    /// Unit of measure, which begins with a space if the number needs one before it.
     pub(super) unit: &'static str,
     /// Codes with their meanings.
     pub(super) codes: &'static [(&'static str, &'static str)],
@@ -25,7 +25,7 @@ impl Named {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NamedFields {
     pub(super) named: &'static [Named],
-    /// Index of the one value that may hold commas, counted from 0.
+    /// Index of the one value that may contain commas, counted from 0.
     pub(super) text_at: Option<usize>,
 }
 
@@ -83,7 +83,7 @@ const SSPA_RULE: Codes = &[
     ("3", "while either"),
     ("?", "stays as it is"),
 ];
-// Without `?`, because no request sets this value (section 13).
+// The code has no `?`, because no request sets this value (section 13).
 const TLE_MODE: Codes = &[("0", "file"), ("1", "web"), ("2", "FTP")];
 const ON_ERROR: Codes = &[("0", "stops tracking"), ("1", "goes on with the last elements")];
 const NONE: Codes = &[("NONE", "stays as it is")];
@@ -174,7 +174,7 @@ const SETTINGS: NamedFields = NamedFields::new(&[
     code("source of the elements", TLE_MODE),
     THRESHOLD,
 ]);
-// Section 13 leaves out the source of the elements, so the threshold moves up by one place.
+// Section 13 omits the source of the elements, so the threshold moves up by one place.
 const SET_SETTINGS: NamedFields = NamedFields::new(&[
     FROM_GPS,
     TIME_OFFSET,
@@ -212,7 +212,8 @@ const GPS: NamedFields = NamedFields::new(&[
     text("month"),
     text("year of the century"),
 ]);
-// Neutral names: section 17 calls them X and Y, but 306.00 of its example fits an azimuth alone.
+// The names are neutral: section 17 calls them X and Y, but 306.00 in its example only fits an
+// azimuth.
 const POSITION: NamedFields = NamedFields::new(&[
     number("first angle", "°"),
     number("second angle", "°"),
@@ -254,9 +255,9 @@ const SET_WEB: NamedFields = NamedFields::new(&[
     code("present track goes on", NO_YES),
 ]);
 const VERSION: NamedFields = NamedFields::new(&[text("control unit"), text("drive unit")]);
-// Section 31 gives no unit.
+// Section 31 gives no unit for the scales.
 const SCALES: NamedFields = NamedFields::new(&[number("scale of X", ""), number("scale of Y", "")]);
-// Section 29 does not explain the state, which may hold commas.
+// Section 29 does not explain the state, which may contain commas.
 const IMAGE_STATE: NamedFields = NamedFields::with_text(&[text("state")], 0);
 const IMAGE_FILE: NamedFields = NamedFields::new(&[text("image file")]);
 const MOVE: NamedFields =
@@ -269,7 +270,7 @@ const GOTO: NamedFields = NamedFields::new(&[
 const TRACK: NamedFields = NamedFields::new(&[code("tracking", OFF_ON)]);
 const AUTO_TRACK: NamedFields = NamedFields::new(&[code("auto-track", OFF_ON)]);
 
-/// Names of the values after `word?` in a reply.
+/// Returns the names of the values after `word?` in a reply.
 pub(super) const fn of_reply(word: Word) -> NamedFields {
     match word {
         Word::Version => VERSION,
@@ -286,7 +287,8 @@ pub(super) const fn of_reply(word: Word) -> NamedFields {
         Word::SatelliteHttp => WEB,
         Word::LoadImage => IMAGE_STATE,
         Word::Reduction => SCALES,
-        // SATELLITE_FTP is hidden as a whole, and the document queries none of the others.
+        // The explanation hides SATELLITE_FTP as a whole, and the document has no queries for the
+        // others.
         Word::SatelliteFtp
         | Word::Move
         | Word::Step
@@ -298,7 +300,7 @@ pub(super) const fn of_reply(word: Word) -> NamedFields {
     }
 }
 
-/// Names of the values after `word=` in a request.
+/// Returns the names of the values after `word=` in a request.
 pub(super) const fn of_setting(word: Word) -> NamedFields {
     match word {
         Word::Move => MOVE,
@@ -311,7 +313,7 @@ pub(super) const fn of_setting(word: Word) -> NamedFields {
         Word::Satellite => SET_SATELLITE,
         Word::SatelliteHttp => SET_WEB,
         Word::LoadImage => IMAGE_FILE,
-        // Same values as in the answer to the question.
+        // These settings have the same values as the answer to their query.
         Word::Time
         | Word::StartStopTime
         | Word::GpsSettings

@@ -4,26 +4,26 @@ use std::collections::VecDeque;
 
 use super::{Frame, Oddity, checksum};
 
-/// Maximum length of a line, LF not counted. The longest frame of the document has 82
-/// bytes; a long URL takes more.
+/// Max length of a line without its LF, bytes. The longest frame of the document has 82 bytes; a
+/// long URL takes more.
 pub const MAX_LINE_BYTES: usize = 1024;
-/// Maximum of bytes that wait between two calls; more is dropped as an over-long line.
+/// Max number of bytes that wait between two calls; the decoder drops more as an over-long line.
 const MAX_PENDING_BYTES: usize = 16 * 1024;
-/// Maximum length of the excerpt of a refused line.
+/// Max length of the excerpt of a refused line, characters.
 const EXCERPT_CHARS: usize = 24;
 
-/// Reason why a line is not a frame. The excerpts hold at most 24 characters and no
-/// values, for a broken line may hold a piece of a password.
+/// Reason why a line is not a frame. The excerpts contain at most 24 characters and no values,
+/// because a broken line may contain a piece of a password.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum FrameError {
     #[error("line of {length} bytes without header: {excerpt}")]
     NoHeader {
-        /// Bytes in the line.
+        /// Length of the line, bytes.
         length: usize,
         /// Beginning of the line; empty if it looks like the tail of a frame.
         excerpt: String,
     },
-    /// The checksum does not match the payload.
+    /// A checksum that does not match the payload.
     #[error("checksum {received:02X} instead of {computed:02X}: {excerpt}")]
     BadChecksum {
         /// Checksum in the line.
@@ -33,7 +33,7 @@ pub enum FrameError {
         /// Word of the line.
         excerpt: String,
     },
-    /// No star in front of the last two characters.
+    /// A line without a star before its last two characters.
     #[error("no checksum: {excerpt}")]
     NoChecksum {
         /// Word of the line.
@@ -45,13 +45,13 @@ pub enum FrameError {
         /// Word of the line.
         excerpt: String,
     },
-    /// The checksum is right, but the payload is not printable ASCII.
+    /// A right checksum, but a payload that is not printable ASCII.
     #[error("not text: {excerpt}")]
     NotText {
         /// Word of the line.
         excerpt: String,
     },
-    /// The link ended before the line did.
+    /// A line that the end of the link has cut off.
     #[error("unfinished line: {excerpt}")]
     Unfinished {
         /// Word of the line.
@@ -62,8 +62,8 @@ pub enum FrameError {
 /// One line of the stream.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ReceivedLine {
-    /// Bytes as received, with the line end; of an over-long line, those that were there when
-    /// it was given up. May hold the FTP password: show [`Self::without_secrets`].
+    /// Bytes as received, with the line end. An over-long line has the bytes until the decoder gave
+    /// it up. They may contain the FTP password: show [`Self::without_secrets`].
     pub(super) bytes: Vec<u8>,
     pub frame: Result<Frame, FrameError>,
 }
@@ -74,16 +74,16 @@ impl ReceivedLine {
     }
 }
 
-/// Splits a byte stream into frames.
+/// Decoder of a byte stream into frames.
 ///
-/// Push the bytes that were read, then take frames until `None`. The stream may be cut and
-/// merged anywhere. Holds at most 16 KiB.
+/// Push the bytes that were read, then take frames until `None`. The stream may be cut and merged
+/// anywhere. The decoder buffers at most 16 KiB.
 #[derive(Debug, Default)]
 pub struct Decoder {
     pending: VecDeque<u8>,
-    /// Drop everything up to the next LF.
+    /// `true` while the decoder drops all bytes up to the next LF.
     skipping: bool,
-    /// Bytes were lost after the end of `pending`.
+    /// `true` if bytes were lost after the end of `pending`.
     overflowed: bool,
 }
 
@@ -92,10 +92,10 @@ impl Decoder {
         Self::default()
     }
 
-    /// Takes bytes of the stream. Bytes that do not fit while nobody takes frames are dropped
-    /// and reported as one over-long line.
+    /// Takes received bytes. Drops bytes that do not fit while the caller takes no frames, and
+    /// reports them as one over-long line.
     pub fn push(&mut self, bytes: &[u8]) {
-        // After a gap, the rest of the line is worthless too.
+        // After a gap, the rest of the line is useless too.
         if self.overflowed {
             return;
         }
@@ -104,19 +104,19 @@ impl Decoder {
         self.pending.extend(bytes.iter().take(room));
     }
 
-    /// Next line, good or not; empty lines are left out.
+    /// Returns the next line, good or not; skips empty lines.
     pub fn next_line(&mut self) -> Option<ReceivedLine> {
         loop {
             let Some(end) = self.pending.iter().position(|byte| *byte == b'\n') else {
                 return self.give_up_unfinished();
             };
             let bytes: Vec<u8> = self.pending.drain(..=end).collect();
-            // This is the tail of a line that was reported as too long.
+            // These bytes are the tail of a line that was reported as too long.
             if std::mem::take(&mut self.skipping) {
                 continue;
             }
             let line = bytes.strip_suffix(b"\n").unwrap_or(&bytes);
-            // Such a line may come together with its LF, so it was never given up before.
+            // A line that arrives together with its LF was not given up before.
             if line.len() > MAX_LINE_BYTES {
                 let error = FrameError::TooLong { excerpt: excerpt(line) };
                 return Some(ReceivedLine { bytes, frame: Err(error) });
@@ -130,30 +130,30 @@ impl Decoder {
         }
     }
 
-    /// Returns `true` if bytes came in that are no whole line yet.
+    /// Returns `true` if the pending bytes form no whole line yet.
     pub fn is_within_line(&self) -> bool {
         self.skipping || !self.pending.is_empty()
     }
 
-    /// Takes the beginning of a line whose end will not come any more.
+    /// Returns the beginning of a line whose end will not come.
     pub fn take_unfinished(&mut self) -> Option<ReceivedLine> {
         let bytes: Vec<u8> = self.pending.drain(..).collect();
-        // A skipped line was reported when it was given up.
+        // The decoder reported a skipped line when it gave the line up.
         let is_skipped = std::mem::take(&mut self.skipping);
         let excerpt = excerpt(&bytes);
         (!bytes.is_empty() && !is_skipped)
             .then_some(ReceivedLine { bytes, frame: Err(FrameError::Unfinished { excerpt }) })
     }
 
-    /// Ends an unfinished line that cannot become a frame any more.
+    /// Ends an unfinished line that can no longer become a frame.
     fn give_up_unfinished(&mut self) -> Option<ReceivedLine> {
-        // Without an LF, all of this belongs to the line that was given up.
+        // Without an LF, all of these bytes belong to the line that was given up.
         if self.skipping {
             self.pending.clear();
             self.overflowed = false;
             return None;
         }
-        // After an overflow the LF may be among the lost bytes, and waiting for it has no end.
+        // After an overflow the LF may be among the lost bytes, so the wait for it might never end.
         if self.pending.len() <= MAX_LINE_BYTES && !self.overflowed {
             return None;
         }
@@ -173,7 +173,7 @@ impl Iterator for Decoder {
     }
 }
 
-/// The line without the carriage returns at its end.
+/// Returns the line without the carriage returns at its end.
 fn without_cr(mut line: &[u8]) -> &[u8] {
     while let Some(shorter) = line.strip_suffix(b"\r") {
         line = shorter;
@@ -181,7 +181,7 @@ fn without_cr(mut line: &[u8]) -> &[u8] {
     line
 }
 
-/// Reads one line, given without its end.
+/// Reads one line, which comes without its end.
 fn read_line(line: &[u8], ended_with_cr: bool) -> Result<Frame, FrameError> {
     let mut headers =
         line.iter().enumerate().filter(|(_, byte)| **byte == b'$').map(|(index, _)| index);
@@ -192,7 +192,7 @@ fn read_line(line: &[u8], ended_with_cr: bool) -> Result<Frame, FrameError> {
         return Err(FrameError::NoChecksum { excerpt: excerpt(line) });
     };
     let received = digits.iter().fold(0, |sum, digit| sum << 4 | hex_value(*digit).unwrap_or(0));
-    // A piece of a cut frame may be glued to a whole one: try each header.
+    // A piece of a cut frame may precede a whole frame: the decoder tries each header.
     let payload = std::iter::once(first)
         .chain(headers)
         .filter_map(|position| Some((position, body.get(position + 1..)?)))
@@ -203,7 +203,7 @@ fn read_line(line: &[u8], ended_with_cr: bool) -> Result<Frame, FrameError> {
     };
     let text = std::str::from_utf8(payload)
         .ok()
-        // The document knows ASCII alone, so other bytes mean damage that the checksum missed.
+        // The document uses only ASCII, so other bytes show damage that the checksum missed.
         .filter(|text| text.bytes().all(|byte| (0x20..0x7f).contains(&byte)))
         .ok_or_else(|| FrameError::NotText { excerpt: excerpt(line) })?;
     let mut frame = Frame::from_payload(text);
@@ -220,10 +220,10 @@ fn read_line(line: &[u8], ended_with_cr: bool) -> Result<Frame, FrameError> {
     Ok(frame)
 }
 
-/// Splits a line at the checksum's star into payload and digits. The star is looked for at
-/// its fixed place only, for values may hold stars too.
+/// Splits a line at the checksum's star into payload and digits. Only the fixed place of the star
+/// counts, because values may contain stars too.
 fn split_checksum(line: &[u8]) -> Option<(&[u8], &[u8])> {
-    // One digit is accepted too, with a note, where the leading zero is missing.
+    // The decoder also accepts one digit, with a note, if the leading zero is missing.
     [2, 1].into_iter().find_map(|count| {
         let (front, digits) = line.split_at_checked(line.len().checked_sub(count)?)?;
         let front = front.strip_suffix(b"*")?;
@@ -235,17 +235,17 @@ fn hex_value(digit: u8) -> Option<u8> {
     char::from(digit).to_digit(16).and_then(|value| u8::try_from(value).ok())
 }
 
-/// First header and the word after it.
+/// Returns the first header and the word after it.
 fn excerpt(line: &[u8]) -> String {
     let start = line.iter().position(|byte| *byte == b'$').unwrap_or(line.len());
     let word = line.get(start..).unwrap_or_default();
-    // Values begin behind these signs, and one of them may be a password.
+    // Values begin after these signs, and a value may be a password.
     let end = word.iter().position(|byte| b",?=".contains(byte)).unwrap_or(word.len());
     printable(word.get(..end).unwrap_or_default())
 }
 
 fn headless_excerpt(line: &[u8]) -> String {
-    // Such a tail may hold a value, and the value may be a password.
+    // The tail of a frame may contain a value, and the value may be a password.
     let is_tail_of_frame = line.iter().any(|byte| b",*".contains(byte));
     if is_tail_of_frame { String::new() } else { printable(line) }
 }

@@ -1,28 +1,28 @@
-//! Bytes of a line for screens and files, without secrets. The answer to `SATELLITE_FTP?`
-//! holds a password in clear, and the line may be cut or spoiled anywhere, so only bytes
-//! that cannot be a piece of it are let through.
+//! Bytes of a line for screens and files, without secrets. The answer to `SATELLITE_FTP?` contains
+//! a password in clear, and the line may be cut or damaged anywhere. The filter only passes bytes
+//! that cannot be a piece of the password.
 
 use super::{Frame, MAX_LINE_BYTES, ReceivedLine};
 use crate::protocol::satrak::Word;
 
-/// Placeholder for bytes that are left out.
+/// Placeholder for hidden bytes.
 pub const HIDDEN: &str = "(hidden)";
 
-/// Bytes of a line that may be shown.
+/// Bytes of a line that Azel may show.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Shown {
     /// At most [`MAX_LINE_BYTES`] of the line, with [`HIDDEN`] in place of omitted bytes.
     pub bytes: Vec<u8>,
-    /// Nothing was left out.
+    /// `true` if no byte was omitted.
     pub is_whole: bool,
 }
 
 impl ReceivedLine {
-    /// The line without any bytes that may be the FTP password or a piece of it.
+    /// Returns the line without any bytes that may be the FTP password or a piece of it.
     ///
     /// A good frame with a word of the document other than `SATELLITE_FTP` stays whole. Any other
-    /// line shows only the words of the document and the numbers right after them. `is_greeting`
-    /// says that no `$` has come over the link yet, so that plain text is no piece of a frame.
+    /// line shows only the words of the document and the numbers right after them. `is_greeting` is
+    /// `true` until the first `$` has come over the link: plain text is then no piece of a frame.
     pub fn without_secrets(&self, is_greeting: bool) -> Shown {
         let bytes = self.bytes.get(..MAX_LINE_BYTES).unwrap_or(&self.bytes);
         let mut filter = SecretFilter { shown: Vec::with_capacity(bytes.len()), is_whole: true };
@@ -43,9 +43,10 @@ impl ReceivedLine {
     }
 }
 
-/// Index of the header of a good frame in its line.
+/// Returns the index of the header of a good frame in its line.
 fn header_of(frame: &Frame, content: &[u8]) -> usize {
-    // Counted back from the last star: values may hold stars, and noise may hold a `$`.
+    // The index counts back from the last star: values may contain stars, and noise may contain a
+    // `$`.
     let star = content.iter().rposition(|byte| *byte == b'*').unwrap_or(0);
     star.saturating_sub(frame.line().len() + 1)
 }
@@ -60,7 +61,7 @@ fn is_plain_text(content: &[u8]) -> bool {
     !content.iter().any(|byte| b"$,*".contains(byte))
 }
 
-/// Collects the bytes that may be shown.
+/// Filter that collects the bytes that Azel may show.
 struct SecretFilter {
     shown: Vec<u8>,
     is_whole: bool,
@@ -71,7 +72,7 @@ impl SecretFilter {
         self.shown.extend_from_slice(bytes);
     }
 
-    /// Adds the placeholder once, however much is left out.
+    /// Adds the placeholder once for any number of hidden bytes.
     fn hide(&mut self) {
         self.is_whole = false;
         if !self.shown.ends_with(HIDDEN.as_bytes()) {
@@ -79,11 +80,11 @@ impl SecretFilter {
         }
     }
 
-    /// Takes a frame whose checksum is right. So is that of one in 256 pieces of another
-    /// frame; therefore an unknown word behind noise is hidden.
+    /// Takes a frame with the right checksum. One in 256 pieces of another frame also has the right
+    /// checksum, so the filter hides an unknown word after noise.
     fn take_frame(&mut self, frame: &Frame, bytes: &[u8], is_behind_noise: bool) {
         match frame.command() {
-            // Without values there is nothing to hide.
+            // A frame without values has nothing to hide.
             Some((Word::SatelliteFtp, _)) if !is_bare(frame) => {
                 self.show(b"$");
                 self.show(frame.word().as_bytes());
@@ -99,7 +100,7 @@ impl SecretFilter {
         }
     }
 
-    /// Takes bytes that are not a good frame.
+    /// Takes bytes that form no good frame.
     fn take_spoiled(&mut self, bytes: &[u8]) {
         let first = bytes.iter().position(|byte| *byte == b'$').unwrap_or(bytes.len());
         // These bytes may be the tail of a cut frame.
@@ -110,20 +111,20 @@ impl SecretFilter {
         for piece in pieces.split(|byte| *byte == b'$').skip(1) {
             let (word, values) = split_word(piece);
             let is_known = std::str::from_utf8(word).is_ok_and(is_plain_word);
-            // The values of a damaged word may be those of the FTP answer.
+            // The values of a damaged word may come from the FTP answer.
             if !is_known || names_ftp(piece) {
                 return self.hide();
             }
             self.show(b"$");
             self.show(word);
-            // A byte of a password may have turned into a `$`, so nothing more is shown.
+            // A byte of a password may have changed to a `$`, so the filter shows no more.
             if !self.take_numbers(values) {
                 return;
             }
         }
     }
 
-    /// Shows values up to the first that is not a number. Returns `false` if there is one.
+    /// Shows values up to the first that is not a number. Returns `false` if there is such a value.
     fn take_numbers(&mut self, values: &[u8]) -> bool {
         let signs = values.iter().take_while(|byte| b"?=".contains(byte)).count();
         let (sign, values) = values.split_at(signs);
@@ -144,7 +145,7 @@ impl SecretFilter {
     }
 }
 
-/// Splits off the word in front of the sign or the values.
+/// Splits off the word before the sign or the values.
 fn split_word(bytes: &[u8]) -> (&[u8], &[u8]) {
     let end = bytes.iter().position(|byte| b",?=*".contains(byte)).unwrap_or(bytes.len());
     bytes.split_at(end)
@@ -153,22 +154,22 @@ fn split_word(bytes: &[u8]) -> (&[u8], &[u8]) {
 /// Returns `true` if the frame has no values, or only the outcome of a request.
 fn is_bare(frame: &Frame) -> bool {
     let fields: Vec<&str> = frame.fields().iter().map(String::as_str).collect();
-    // At most one code: with more values, ERR may be the address of the server.
+    // Only one code is allowed: with more values, ERR may be the address of the server.
     matches!(fields.as_slice(), [] | ["OK" | "ERR"] | ["ERR", _])
 }
 
-/// Returns `true` if this is a word of the document whose values are not secret.
+/// Returns `true` for a word of the document whose values are not secret.
 fn is_plain_word(word: &str) -> bool {
     Word::from_name(word).is_some_and(|word| word != Word::SatelliteFtp)
 }
 
-/// Returns `true` if the letters FTP occur anywhere, in upper or lower case.
+/// Returns `true` if the bytes contain the letters FTP, in upper or lower case.
 fn names_ftp(bytes: &[u8]) -> bool {
-    // Three letters are enough, because the rest of the word may be damaged.
+    // Three letters suffice, because the rest of the word may be damaged.
     bytes.windows(3).any(|three| three.eq_ignore_ascii_case(b"FTP"))
 }
 
-/// Splits off the star and digits of a checksum at the end, if they are there.
+/// Splits off the star and digits of a checksum at the end, if there are any.
 fn split_sum(values: &[u8]) -> (&[u8], &[u8]) {
     let star = values.iter().rposition(|byte| *byte == b'*');
     let star_index = star.filter(|index| {
@@ -269,7 +270,7 @@ mod tests {
         assert_eq!(shown(b"er2,22\r\n", true), ["(hidden)\r\n"]);
     }
 
-    /// Returns `true` if any four letters of the password, or its digits, are in `lines`.
+    /// Returns `true` if `lines` contain any four successive characters of the password.
     fn leaks(lines: &[String], password: &str) -> bool {
         let pieces: Vec<_> =
             (0..password.len() - 3).map(|index| &password[index..index + 4]).collect();
@@ -297,7 +298,7 @@ mod tests {
                         let lines = shown(&bytes, false);
                         assert!(!leaks(&lines, password), "{index} {byte}: {lines:?}");
                     }
-                    // Digits glued to digits cannot be told from a number.
+                    // Digits next to digits cannot be distinguished from a number.
                     let is_glued = password.starts_with(|c: char| c.is_ascii_digit());
                     if !is_glued {
                         let lines = shown(&overrun, false);

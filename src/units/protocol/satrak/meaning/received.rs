@@ -57,7 +57,7 @@ fn reply(reply: &Reply) -> Meaning {
             let never = if clock.is_set() { "" } else { ", never set" };
             format!("Clock {}{never}", date_time(clock.time))
         }
-        // A unit that was never set may report a stop that is not after its start.
+        // A unit without settings may report a stop that is not after its start.
         Reply::StartStopTime(window) if !window.is_ordered() => "No tracking window".to_owned(),
         Reply::StartStopTime(window) => {
             format!("Tracks from {} to {}", date_time(window.start), date_time(window.stop))
@@ -156,7 +156,7 @@ fn fault_list(faults: &Faults) -> String {
     }
 }
 
-/// The most important settings; the rest is among the values of the frame.
+/// Returns the most important settings; the values of the frame show the others.
 fn settings_in_short(settings: &Settings) -> String {
     let sspa = match settings.sspa {
         SspaMode::Off => "off".to_owned(),

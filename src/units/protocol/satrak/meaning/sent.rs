@@ -6,7 +6,7 @@ use crate::protocol::satrak::{
 };
 
 pub(super) fn meaning(frame: &Frame) -> Meaning {
-    // Its values are left out before a frame is shown.
+    // Azel hides the values of this frame before it shows the frame.
     if frame.command() == Some((Word::SatelliteFtp, Verb::Set)) {
         let words = "Sets the FTP source of the elements, values hidden";
         return Meaning::new(Tone::Change, words);
@@ -65,7 +65,7 @@ fn moves(motion: Motion) -> String {
     }
 }
 
-/// Names the axes that turn, with their values.
+/// Returns the names of the axes that turn, with their values.
 fn axes(x: f64, y: f64, unit: &str) -> String {
     let turning = [("X", x), ("Y", y)].into_iter().filter(|(_, amount)| amount.abs() > 0.0);
     let words: Vec<String> =

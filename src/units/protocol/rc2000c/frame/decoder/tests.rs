@@ -34,7 +34,7 @@ fn noise_before_a_frame_loses_nothing() {
 
 #[test]
 fn the_checksum_of_a_frame_begins_no_other() {
-    // Its checksum is 02, and the address follows.
+    // The checksum of the poll is 02, and the address follows.
     let mut decoder = decoder(&[POLL, b"2".as_slice(), REFUSED].concat());
     assert_eq!(headers(&mut decoder), [Header::Command, Header::Nak]);
 }
