@@ -1,5 +1,5 @@
-//! Runs the antennas: links, sessions, intents and the gate, on a thread of its own. The
-//! station sends commands and reads snapshots; neither side waits for the other.
+//! Antenna driver: links, sessions, intents and the gate, on a dedicated thread. The station sends
+//! commands and reads snapshots; neither side waits for the other.
 
 mod before_sleep;
 pub mod dead_man;
@@ -47,19 +47,19 @@ pub use position_log::PositionLog;
 pub use session::{JOG_LEASE, Session, Wires};
 pub use time_sync::time_sync;
 
-/// Maximum number of waiting commands. The station sends at most a few at a time.
+/// Max number of pending commands. The station sends only a few at a time.
 const COMMANDS: usize = 64;
-/// Maximum number of waiting events. When nobody reads, the oldest alarms matter most: further
-/// ones are dropped and counted in the log.
+/// Max number of unread events. The oldest alarms matter most, so the session drops further events
+/// and counts them in the log.
 const EVENTS: usize = 256;
-/// How long the end of the program waits for the last STOP: as long as a session tries to
-/// reach a unit once more and to see it stand.
+/// Max time that the end of the program waits for the last STOP: as long as a session retries to
+/// reach a unit and to see it stand.
 const FAREWELL: Duration = Duration::from_secs(6);
 
 /// Longest pause of a session that breaks down repeatedly.
 const MAX_REST: Duration = Duration::from_secs(5);
 
-/// The station's end of one antenna's session. Dropping it ends the session, which stops a jog
+/// Station side of one antenna's session. Dropping this handle ends the session, which stops a jog
 /// first.
 pub struct AntennaHandle {
     commands: mpsc::Sender<Numbered>,
@@ -72,31 +72,31 @@ pub struct AntennaHandle {
     bounds: watch::Sender<Bounds>,
 }
 
-/// Numbers the requests to all antennas of a station.
+/// Counter that numbers the requests to all antennas of a station.
 #[derive(Debug, Clone, Default)]
 pub struct Orders(Arc<AtomicU64>);
 
 impl Orders {
-    /// The number of a request made now.
+    /// Returns the next request number.
     pub fn next(&self) -> u64 {
         self.0.fetch_add(1, Ordering::SeqCst) + 1
     }
 }
 
-/// A command on its way to a session.
+/// Command in the queue of a session.
 struct Numbered {
     command: Command,
-    /// Its number among all requests.
+    /// Number among all requests.
     number: u64,
-    /// Somebody waits for its answer in the snapshot.
+    /// `true` if the sender waits for the answer in the snapshot.
     wants_answer: bool,
 }
 
-/// Stops an antenna past every queue; outlives the session.
+/// Handle that stops an antenna past every queue; outlives the session.
 #[derive(Clone)]
 pub struct Stopper {
     stop: Arc<Notify>,
-    /// Requests up to this number are void, wherever they still wait.
+    /// Highest void request number; requests up to this number are void in every queue.
     void: Arc<AtomicU64>,
     orders: Orders,
     snapshots: watch::Receiver<Arc<Snapshot>>,
@@ -108,7 +108,7 @@ impl Stopper {
         self.stop.notify_one();
     }
 
-    /// Voids all requests made until now, wherever they still wait.
+    /// Voids all requests made so far, in every queue.
     pub fn forget(&self) {
         self.void.fetch_max(self.orders.next(), Ordering::SeqCst);
     }
@@ -118,7 +118,7 @@ impl Stopper {
         number <= self.void.load(Ordering::SeqCst)
     }
 
-    /// Returns `true` if the antenna tracks from here, or is about to.
+    /// Returns `true` if Azel tracks with the antenna or is about to.
     pub fn tracks(&self) -> bool {
         self.snapshots.borrow().intent == Intent::Track
     }
@@ -129,8 +129,8 @@ impl Stopper {
     }
 }
 
-/// The orbit of the satellite that the unit holds. It outlives a session that breaks down, and
-/// bypasses the queue of commands, which may be full.
+/// Orbit of the satellite on the unit. The channel outlives a session that breaks down, and
+/// bypasses the command queue, which may be full.
 type Orbits = Arc<watch::Sender<Option<Arc<KnownOrbit>>>>;
 
 impl AntennaHandle {
@@ -138,7 +138,7 @@ impl AntennaHandle {
         self.stopper.stop();
     }
 
-    /// Stops the antenna from anywhere.
+    /// Returns a handle that stops the antenna from any thread.
     pub fn stopper(&self) -> Stopper {
         self.stopper.clone()
     }
@@ -147,19 +147,19 @@ impl AntennaHandle {
         &self.orders
     }
 
-    /// Sends a command. It comes back if the session is too busy to take it, and the operator
-    /// must then be told.
+    /// Sends a command. The error returns the command if the session is too busy; the caller must
+    /// then inform the operator.
     pub fn send(&self, command: Command) -> Result<(), Command> {
         self.send_as(command, self.orders.next())
     }
 
-    /// Sends a command that was requested earlier, with the number it got then: a STOP in
-    /// between voids it.
+    /// Sends a command that was requested earlier, under its request number: a STOP in between
+    /// voids the command.
     pub fn send_as(&self, command: Command, number: u64) -> Result<(), Command> {
         self.send_numbered(Numbered { command, number, wants_answer: false })
     }
 
-    /// The same; the snapshot will show what came of the command under its number.
+    /// Sends a command like [`Self::send_as`]; the snapshot will show its outcome under `number`.
     pub fn send_answered(&self, command: Command, number: u64) -> Result<(), Command> {
         self.send_numbered(Numbered { command, number, wants_answer: true })
     }
@@ -176,7 +176,7 @@ impl AntennaHandle {
         &self.wire
     }
 
-    /// The last measured positions.
+    /// Returns the last measured positions.
     pub fn positions(&self) -> &PositionLog {
         &self.positions
     }
@@ -191,7 +191,7 @@ impl AntennaHandle {
         self.orbit.send_replace(orbit);
     }
 
-    /// The oldest unread event.
+    /// Takes the oldest unread event.
     pub fn next_event(&mut self) -> Option<Event> {
         self.events.try_recv().ok()
     }
@@ -214,21 +214,22 @@ pub async fn told_to_end() -> io::Result<()> {
     tokio::signal::ctrl_c().await
 }
 
-/// Clock and links that sessions use, and the check of the clock's synchronisation.
+/// Clock, links and clock synchronisation check for the sessions.
 #[derive(Clone)]
 pub struct Outside {
-    /// Used by the sessions and the code that runs them.
+    /// Clock of the sessions and of the code that runs them.
     pub clock: Clock,
     pub dial: Arc<Dialler>,
-    /// Reads the synchronisation state of the clock; may block for seconds.
+    /// Function that reads the synchronisation state of the clock; may block for seconds.
     pub time_sync: fn() -> TimeSync,
 }
 
-/// Prepares the links of an antenna to places that the lock has.
+/// Function that prepares the links of an antenna to locked endpoints.
 pub type Dialler = dyn Fn(&Antenna, Arc<dyn UnitLock>) -> Dial + Send + Sync;
 
 impl From<Clock> for Outside {
-    /// Uses real links. Any clock other than the system clock is of unknown synchronisation.
+    /// Uses real links. Reports the synchronisation of any clock other than the system clock as
+    /// unknown.
     fn from(clock: Clock) -> Self {
         let time_sync = if clock.is_of_system() { time_sync } else { || TimeSync::NotKnown };
         Self { clock, dial: Arc::new(link::dial), time_sync }
@@ -237,7 +238,7 @@ impl From<Clock> for Outside {
 
 pub struct Driver {
     runtime: tokio::runtime::Handle,
-    /// `None` where somebody else runs the runtime.
+    /// Thread of the runtime; `None` if the caller provides the runtime.
     thread: Option<DriverThread>,
     sessions: tokio_util::task::TaskTracker,
     outside: Outside,
@@ -247,7 +248,6 @@ pub struct Driver {
     debts: Debts,
 }
 
-/// The driver's thread, and what watches over it.
 struct DriverThread {
     end: Option<tokio::sync::oneshot::Sender<()>>,
     ended: std::sync::mpsc::Receiver<()>,
@@ -257,7 +257,7 @@ struct DriverThread {
 }
 
 impl Driver {
-    /// Starts the thread. It calls `wake` after every change.
+    /// Starts the thread, which calls `wake` after every change.
     pub fn start(outside: impl Into<Outside>, wake: Wake) -> io::Result<Self> {
         let sessions = tokio_util::task::TaskTracker::new();
         let (runtime, thread) = DriverThread::start(sessions.clone(), &wake)?;
@@ -265,8 +265,8 @@ impl Driver {
         Ok(Self { thread, sessions, ..Self::within(runtime, outside.into(), wake) })
     }
 
-    /// Runs the sessions on a runtime that somebody else drives, such as a rehearsal: nothing
-    /// watches over it, and its end waits for nobody.
+    /// Runs the sessions on a runtime of the caller, such as a rehearsal. This driver has no
+    /// watchdog, and its end waits for no session.
     pub fn within(runtime: tokio::runtime::Handle, outside: Outside, wake: Wake) -> Self {
         Self {
             runtime,
@@ -280,7 +280,7 @@ impl Driver {
         }
     }
 
-    /// With `program` as the dead-man of motions by hand: this program, which knows
+    /// Sets `program` as the dead-man of manual motions. `program` is this program, which knows
     /// [`dead_man::SUBCOMMAND`].
     #[must_use]
     pub fn guarded_by(mut self, program: Option<PathBuf>) -> Self {
@@ -288,16 +288,16 @@ impl Driver {
         self
     }
 
-    /// With records of motions by hand in `folder`, for the next start.
+    /// Keeps records of manual motions in `folder`, for the next start.
     #[must_use]
     pub fn marking_in(mut self, folder: Option<PathBuf>) -> Self {
         self.debts = Debts::marked_in(folder);
         self
     }
 
-    /// Returns how long the thread has not responded, from half a second on. Until it runs again,
-    /// Azel carries out nothing, STOP included. `wake` is called when the thread hangs, each second
-    /// while it does, and when it runs again.
+    /// Returns how long the thread has not responded, if at least half a second. Until it runs
+    /// again, Azel executes nothing, not even STOP. The driver calls `wake` when the thread hangs,
+    /// each second until it runs, and when it runs again.
     pub fn stood_for(&self) -> Option<Duration> {
         self.thread.as_ref()?.pulse.stood_for()
     }
@@ -307,13 +307,13 @@ impl Driver {
         self.outside.time_sync
     }
 
-    /// The runtime of the driver's thread, for other work.
+    /// Returns the runtime of the driver thread, for other work.
     pub fn runtime(&self) -> &tokio::runtime::Handle {
         &self.runtime
     }
 
-    /// Starts the session of an antenna, with what was learned of its axes before. Its unit may be
-    /// locked out. `lock` is dropped when the session has ended.
+    /// Starts the session of an antenna with earlier lessons about its axes. A lock-out may apply
+    /// to the unit. The session drops `lock` when it ends.
     pub fn open(
         &self,
         antenna: &Antenna,
@@ -342,7 +342,7 @@ impl Driver {
         let open = move || {
             let (controller, dial) = (antenna.controller(), dial(&antenna, Arc::clone(&lock)));
             let (wires, debts) = (ends.clone(), debts.clone());
-            // Also that of a session that broke down.
+            // Includes the lock-out of a session that broke down.
             let lock_out = wires.shown_lock_out();
             let session = Session::over(controller, &antenna, dial, clock.clone(), wires, debts)
                 .locked_out(lock_out);
@@ -359,13 +359,13 @@ impl Driver {
         handle
     }
 
-    /// The handle of an antenna that is driven from elsewhere: it has no session and takes
-    /// nothing.
+    /// Returns the handle of an antenna that another program drives: it has no session and accepts
+    /// no command.
     pub fn leave_alone(antenna: &Antenna) -> AntennaHandle {
         Wires::closed(antenna, Instant::now())
     }
 
-    /// Numbers the requests to all its antennas.
+    /// Returns the counter of the requests to all antennas.
     pub fn orders(&self) -> &Orders {
         &self.orders
     }
@@ -376,7 +376,7 @@ impl Driver {
 }
 
 impl DriverThread {
-    /// Starts the thread, and returns its runtime. It ends when all `sessions` have ended.
+    /// Starts the thread, and returns its runtime. The thread ends when all `sessions` have ended.
     fn start(
         sessions: tokio_util::task::TaskTracker,
         wake: &Wake,
@@ -392,12 +392,12 @@ impl DriverThread {
         before_sleep::watch(before_sleep.clone(), handle.clone())?;
         thread::Builder::new().name("azel-driver".to_owned()).spawn(move || {
             runtime.block_on(async {
-                // An error means that the driver is gone, which says the same.
+                // An error means that the driver is gone; the sessions must end then, too.
                 let _ = told_to_end.await;
                 sessions.close();
                 let _ = tokio::time::timeout(FAREWELL, sessions.wait()).await;
             });
-            // Perhaps nobody waits any more.
+            // The receiver may be gone already.
             let _ = tell_ended.send(());
         })?;
         let thread = Self { end: Some(end), ended, before_sleep, pulse, _watchdog: watchdog };
@@ -405,15 +405,15 @@ impl DriverThread {
     }
 }
 
-/// Runs a session, and a new one if it breaks down: the antenna may be moving unwatched, so
-/// the new one sends STOP first.
+/// Runs a session, and starts a new session after a breakdown. The antenna may be moving unwatched,
+/// so the new session sends STOP first.
 async fn keep_alive(open: impl Fn() -> Session, wires: Wires) {
     let mut broke = 0_u32;
     let mut own_stop = wires.newest_void();
     while caught(Box::pin(async { Box::pin(open().run()).await })).await.is_none() {
         wires.tell(Event::Safety(Safety::SessionBroke));
-        // The first restart waits for nothing. A session that breaks again and again must not
-        // keep the others from running, nor keep a STOP of the operator waiting.
+        // The first restart is immediate. Later restarts pause, so that a broken session does not
+        // block the others. An operator's STOP ends the pause.
         let rest = tokio::time::sleep(MAX_REST.min(Duration::from_millis(200) * broke));
         tokio::select! {
             () = rest => {}
@@ -434,7 +434,7 @@ async fn caught<F: Future>(mut work: Pin<Box<F>>) -> Option<F::Output> {
     .await
 }
 
-/// Waits, within limits, until every session has sent its last STOP.
+/// Waits, with a timeout, until every session has sent its last STOP.
 impl Drop for DriverThread {
     fn drop(&mut self) {
         drop(self.end.take());
@@ -514,7 +514,7 @@ mod tests {
             Session::over(of.controller(), &of, dial, clock.clone(), ends.clone(), debts)
         };
         tokio::spawn(keep_alive(open, wires));
-        // By then it rests for some five seconds each time.
+        // By now, the session pauses for about five seconds before each restart.
         tokio::time::sleep(Duration::from_secs(61)).await;
         let before = dialled.load(Ordering::Relaxed);
         handle.stop();

@@ -1,5 +1,5 @@
-//! Stops what would not end by itself before this computer sleeps: while it sleeps nothing
-//! sends STOP, and a held jog key stays down.
+//! Stop of endless motions before this computer sleeps: a sleeping computer sends no STOP, and a
+//! held jog key stays down.
 
 use std::{
     convert::Infallible,
@@ -9,15 +9,14 @@ use std::{
 
 use tokio::sync::mpsc;
 
-/// Longest delay of a sleep. `logind` waits for 5 s unless set otherwise
-/// (`InhibitDelayMaxSec`, logind.conf(5)).
+/// Max delay of a sleep. `logind` waits for 5 s by default (`InhibitDelayMaxSec`, logind.conf(5)).
 const MAX: Duration = Duration::from_secs(3);
 
 /// Interval between attempts to reach a lost bus.
 #[cfg(target_os = "linux")]
 const AGAIN: Duration = Duration::from_secs(30);
 
-/// Held by a session while a motion runs that only the session would end.
+/// Token of a session, alive during a motion that only this session would end.
 #[derive(Debug)]
 pub(super) struct Awake(
     #[expect(dead_code, reason = "dropping it says all")] mpsc::Sender<Infallible>,
@@ -27,7 +26,7 @@ pub(super) struct Awake(
 pub(super) struct BeforeSleep(Arc<Mutex<Vec<mpsc::Sender<Awake>>>>);
 
 impl BeforeSleep {
-    /// A channel for a new session.
+    /// Returns the channel of a new session.
     pub(super) fn hear(&self) -> mpsc::Receiver<Awake> {
         let (tell, hear) = mpsc::channel(1);
         let mut sessions = self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -36,12 +35,12 @@ impl BeforeSleep {
         hear
     }
 
-    /// Tells all sessions, and waits within limits until no motion runs any more that only
-    /// they would end.
+    /// Informs all sessions, then waits with a timeout until they have ended every motion that
+    /// would not end otherwise.
     pub(super) async fn all_quiet(&self) {
         let (awake, mut all_quiet) = mpsc::channel(1);
         for session in &*self.0.lock().unwrap_or_else(PoisonError::into_inner) {
-            // A session that has not read the last message yet ends its motion for that one.
+            // The queue is full: a pending message already makes this session end its motion.
             let _ = session.try_send(Awake(awake.clone()));
         }
         drop(awake);
@@ -51,7 +50,7 @@ impl BeforeSleep {
     }
 }
 
-/// Tells the sessions on `runtime` before each sleep, until the program ends.
+/// Informs the sessions on `runtime` before each sleep, until the program ends.
 #[cfg(target_os = "linux")]
 pub(super) fn watch(sessions: BeforeSleep, runtime: tokio::runtime::Handle) -> std::io::Result<()> {
     std::thread::Builder::new().name("azel-sleep".to_owned()).spawn(move || {
@@ -73,14 +72,14 @@ pub(super) fn watch(sessions: BeforeSleep, runtime: tokio::runtime::Handle) -> s
     Ok(())
 }
 
-/// Nothing tells of sleeps on this operating system.
+/// Does nothing: Azel receives no sleep announcements on this operating system.
 #[cfg(not(target_os = "linux"))]
 pub(super) fn watch(_: BeforeSleep, _: tokio::runtime::Handle) -> std::io::Result<()> {
     Ok(())
 }
 
-/// `systemd-logind` tells when the computer is about to sleep, and waits for the holders of a
-/// lock of the kind "delay" (`org.freedesktop.login1(5)`, systemd's "Inhibitor Locks").
+/// Sleep announcements of `systemd-logind`, which waits for the holders of a lock of the kind
+/// "delay" (`org.freedesktop.login1(5)`, systemd's "Inhibitor Locks").
 #[cfg(target_os = "linux")]
 mod logind {
     use zbus::{
@@ -108,7 +107,7 @@ mod logind {
                 before();
                 lock = None;
             } else if lock.is_none() {
-                // Without a lock the next sleep is not delayed, but is still announced.
+                // Without a lock, `logind` does not delay the next sleep, but still announces it.
                 lock = delay(&manager).inspect_err(|error| tracing::warn!(%error, "no lock")).ok();
             }
         }
@@ -140,7 +139,7 @@ mod logind {
 
         const PATIENCE: Duration = Duration::from_secs(20);
 
-        /// Hands out locks, and the other end of each to the test.
+        /// Fake manager that hands out locks and passes the other end of each lock to the test.
         struct Manager(mpsc::SyncSender<UnixStream>);
 
         #[zbus::interface(name = "org.freedesktop.login1.Manager")]
@@ -202,7 +201,7 @@ mod logind {
             hears.recv_timeout(PATIENCE).unwrap();
             assert!(is_held(&lock), "before all is quiet");
             go_on.send(()).unwrap();
-            // Until the end of the stream.
+            // Wait for the end of the stream.
             lock.set_nonblocking(false).unwrap();
             lock.set_read_timeout(Some(PATIENCE)).unwrap();
             assert_eq!((&lock).read(&mut [0]).unwrap(), 0);
@@ -245,7 +244,7 @@ mod tests {
         timeout(MAX, sleeps.all_quiet()).await.unwrap();
         assert!(begun.elapsed() < MAX, "it did not wait in vain");
         assert!(!unit.state().is_moving);
-        // The key that stays down does not move it again after the sleep.
+        // The held key must not move the antenna again after the sleep.
         for _ in 0..10 {
             hold();
             seconds(0.1).await;
@@ -264,7 +263,7 @@ mod tests {
         let begun = Instant::now();
         sleeps.all_quiet().await;
         assert!(begun.elapsed() < Duration::from_millis(100));
-        // Nor does one whose session is over.
+        // A session that is over must not delay the sleep either.
         drop(sleeps.hear());
         sleeps.all_quiet().await;
     }

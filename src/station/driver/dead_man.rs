@@ -1,8 +1,8 @@
-//! The dead-man: a small process beside this one that stops a unit when this
-//! process no longer can.
+//! Dead-man: a small process beside this one that stops a unit when this process no longer can.
 //!
-//! It is started for one motion by hand that would not end by itself, holds a duplicate of the
-//! open link, and expects a beat from the session's own loop. Without one it writes STOP.
+//! Azel starts a child for each manual motion that would not end otherwise. The child holds a
+//! duplicate of the open link and expects beats from the session's loop. If the beats stop, the
+//! child writes STOP.
 
 #[cfg(unix)]
 mod child;
@@ -16,24 +16,24 @@ pub use child::watch_over;
 #[cfg(unix)]
 pub(super) use parent::DeadMan;
 
-/// Name of the subcommand that runs the child; its argument holds the STOP bytes in
-/// hexadecimal digits.
+/// Name of the subcommand that runs the child; its argument contains the STOP bytes in hexadecimal
+/// digits.
 pub const SUBCOMMAND: &str = "dead-man";
-/// Without a beat for this long the child stops the unit.
+/// Time without a beat after which the child stops the unit.
 const SILENCE: Duration = Duration::from_millis(400);
-/// The session beats at least this often.
+/// Max interval between two beats of the session.
 pub(super) const BEAT: Duration = Duration::from_millis(100);
 
-/// One byte on the pipe to the child.
+/// Bytes on the pipe to the child.
 #[cfg(unix)]
 mod word {
-    /// The session is alive and its lease holds.
+    /// Beat: the session is alive and its lease holds.
     pub(super) const BEAT: u8 = b'.';
-    /// The motion is over: end without a STOP.
+    /// End of the motion: the child ends without a STOP.
     pub(super) const END: u8 = b'e';
 }
 
-/// For systems without handles to give away: [`DeadMan::arm`] always fails.
+/// Placeholder for systems that cannot duplicate handles: [`DeadMan::arm`] always fails.
 #[cfg(not(unix))]
 #[derive(Debug)]
 pub(super) struct DeadMan(std::convert::Infallible);

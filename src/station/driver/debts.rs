@@ -1,10 +1,10 @@
-//! STOPs that are owed, auto-track that is to be off, and offsets of shifted tracks. A debt belongs
-//! to a unit, not to a row of the settings: it outlives the session, the name and the address of its
-//! antenna and, as a promise on disk, this program. Auto-track has such a record only where no antenna
-//! is left that would be looked after at the next start.
+//! Debts to units: owed STOPs, auto-track to be disabled, and offsets of shifted tracks. A debt
+//! belongs to a unit, not to an antenna entry of the settings: it outlives the session, the name
+//! and the address of its antenna. As a promise on disk, a debt also outlives this program.
+//! Auto-track has such a record only if no antenna of the settings has the unit at the next start.
 //!
-//! Every request to the store of promises is made under the lock of the ledger, so that both agree
-//! on the order. A worker of the store writes the files.
+//! Debts lock the ledger during every request to the store of promises, so that both have the same
+//! order. A worker of the store writes the files.
 
 mod shifted_track;
 
@@ -27,12 +27,12 @@ use crate::{
 };
 pub(super) use shifted_track::{AddedTo, ShiftedTrack};
 
-/// Ends of the names of the files: of a STOP, of auto-track, and of offsets.
+/// File name extensions for a STOP, for auto-track, and for offsets.
 const STOP: &str = ".toml";
 const AUTO_TRACK: &str = ".auto-track.toml";
 const OFFSETS: &str = ".offsets.toml";
 
-/// Name of a file about `unit`, readable, and unique to it.
+/// Returns the readable and unique name of a file about `unit`.
 fn file_name(unit: &Unit, ending: &str) -> String {
     let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '-' };
     let readable: String = unit.address.chars().map(plain).take(40).collect();
@@ -41,26 +41,26 @@ fn file_name(unit: &Unit, ending: &str) -> String {
     format!("{}-{readable}-{a:02x}{b:02x}{c:02x}{d:02x}{ending}", unit.make)
 }
 
-/// A unit that may be moving.
+/// Record of a unit that may be moving.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::driver) struct Mark {
-    /// When the motion by hand began, or the STOP was pressed; `None` if the file cannot be read.
+    /// Start of the manual motion or time of the STOP; `None` if the file is unreadable.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(in crate::driver) since: Option<Timestamp>,
-    /// When a session last recorded that it still tried to stop the unit. Earlier versions did not
-    /// record that.
+    /// Last time at which a session recorded a pending attempt to stop the unit. Earlier versions
+    /// did not record this time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(in crate::driver) tried: Option<Timestamp>,
 }
 
 impl Mark {
-    /// The last time at which the unit was known to be attended to.
+    /// Returns the last time at which a session is known to have attended to the unit.
     pub(in crate::driver) fn last_tried(self) -> Option<Timestamp> {
         self.tried.max(self.since)
     }
 }
 
-/// Content of a file.
+/// Content of a debt file.
 #[derive(Debug, Serialize, Deserialize)]
 struct Record<T> {
     #[serde(flatten)]
@@ -69,14 +69,14 @@ struct Record<T> {
     debt: T,
 }
 
-/// Content of the file of auto-track, beside the unit.
+/// Content of the auto-track file, besides the unit.
 #[derive(Debug, Serialize, Deserialize)]
 struct AutoTrack {
     since: Timestamp,
 }
 
 impl Ledger {
-    /// The STOP of a newer session of the same unit.
+    /// Returns the STOP trigger of a newer session of the same unit.
     fn newer(&self, unit: &Unit, session: u64) -> Option<&Arc<Notify>> {
         let newest = self.sessions.get(unit).filter(|(number, _)| *number > session);
         newest.map(|(_, stop)| stop)
@@ -86,7 +86,7 @@ impl Ledger {
 /// All debts of this program. Clones share them.
 #[derive(Debug, Clone, Default)]
 pub struct Debts {
-    /// Folder of the files; `None` for none.
+    /// Folder of the files; `None` to keep no files.
     folder: Option<Arc<Path>>,
     promises: Promises,
     ledger: Arc<Mutex<Ledger>>,
@@ -96,28 +96,28 @@ pub struct Debts {
 struct Ledger {
     /// Number of the newest session.
     newest: u64,
-    /// The newest session of each unit, and its STOP.
+    /// Newest session of each unit, and its STOP trigger.
     sessions: BTreeMap<Unit, (u64, Arc<Notify>)>,
     owed: BTreeSet<Unit>,
     /// Units that an earlier run may have left moving, until a session has proved standstill.
     left: BTreeSet<Unit>,
-    /// The session that marked a unit last.
+    /// Session that marked each unit last.
     marked_by: BTreeMap<Unit, u64>,
-    /// Units whose auto-track is to be off and was not read back as off since.
+    /// Units whose auto-track must be disabled and was not yet read back as off.
     auto_track: BTreeSet<Unit>,
-    /// Units that were moved from here since then and are not known to stand.
+    /// Time of Azel's first motion of each unit without proved standstill.
     unproved: BTreeMap<Unit, Instant>,
-    /// Units that may hold offsets of a pass that were written from here.
+    /// Units that may hold pass offsets written by this program.
     shifted: BTreeMap<Unit, ShiftedTrack>,
 }
 
 impl Debts {
-    /// With files in `folder`, and the debts that an earlier run left there.
+    /// Loads the debts that an earlier run left in `folder`, and keeps files there.
     pub fn marked_in(folder: Option<PathBuf>) -> Self {
         Self::over(folder, Promises::default())
     }
 
-    /// The same with these promises.
+    /// Does the same as [`Self::marked_in`] with the given store of promises.
     pub(in crate::driver) fn over(folder: Option<PathBuf>, promises: Promises) -> Self {
         let debts = Self { folder: folder.map(Arc::from), promises, ..Self::default() };
         if let Some(folder) = debts.folder.as_deref() {
@@ -134,7 +134,7 @@ impl Debts {
     }
 
     fn ledger(&self) -> MutexGuard<'_, Ledger> {
-        // No code panics while it holds the lock.
+        // No code panics while it owns the lock, so the data of a poisoned lock is valid.
         self.ledger.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -142,20 +142,20 @@ impl Debts {
         Some(self.folder.as_ref()?.join(file_name(unit, ending)))
     }
 
-    /// The store of all promises of this program.
+    /// Returns the store of all promises of this program.
     pub fn promises(&self) -> &Promises {
         &self.promises
     }
 
-    /// Waits until every file of `unit` is as requested last, or the disk has refused it.
+    /// Waits until the disk has stored or refused the last requested state of every file of `unit`.
     pub(super) async fn settled(&self, unit: &Unit) {
         let paths = [STOP, AUTO_TRACK, OFFSETS].map(|ending| self.path(unit, ending));
         let paths: Vec<PathBuf> = paths.into_iter().flatten().collect();
         self.promises.settled(&paths).await;
     }
 
-    /// A session of `unit` begins; `stop` stops it, at once if a STOP is owed. Returns its
-    /// number.
+    /// Registers a new session of `unit` and returns its number. Notifies `stop` at once if Azel
+    /// owes the unit a STOP.
     pub(super) fn begin(&self, unit: &Unit, stop: Arc<Notify>) -> u64 {
         let mut ledger = self.ledger();
         ledger.newest += 1;
@@ -171,7 +171,7 @@ impl Debts {
         self.ledger().owed.insert(unit.clone());
     }
 
-    /// The unit stands, or the operator has seen that it does.
+    /// Clears the owed STOP: the unit stands, or the operator has confirmed that it stands.
     pub(super) fn settle(&self, unit: &Unit) {
         self.ledger().owed.remove(unit);
     }
@@ -192,13 +192,14 @@ impl Debts {
         self.ledger().newer(unit, session).is_some()
     }
 
-    /// From now on `unit` is not to track by itself.
+    /// Records that `unit` must not track on its own.
     pub fn owe_auto_track_off(&self, unit: &Unit) {
         self.ledger().auto_track.insert(unit.clone());
     }
 
-    /// Like [`Self::owe_auto_track_off`], also for the next start: no antenna is left that has this
-    /// unit. Blocks until it is on the disk; the error says why it is not.
+    /// Does the same as [`Self::owe_auto_track_off`], also for the next start, because no antenna
+    /// has this unit any more. Blocks until the record is on disk; the error contains the reason
+    /// for a failure.
     pub fn mark_auto_track_off(&self, unit: &Unit, since: Timestamp) -> Result<(), String> {
         let mut ledger = self.ledger();
         ledger.auto_track.insert(unit.clone());
@@ -208,7 +209,8 @@ impl Debts {
         self.promises.finish(&path, work)
     }
 
-    /// The unit does not track by itself any more, or is to do so again.
+    /// Clears the auto-track debt: the unit no longer tracks on its own, or the operator wants it
+    /// to.
     pub(super) fn settle_auto_track(&self, unit: &Unit) {
         let mut ledger = self.ledger();
         if ledger.auto_track.remove(unit)
@@ -218,7 +220,8 @@ impl Debts {
         }
     }
 
-    /// Leaves what an earlier run owed a unit to the Azel that drives it now, and the files with it.
+    /// Removes the debts of an earlier run to a unit, and leaves its files to the Azel instance
+    /// that now drives it.
     pub fn leave(&self, unit: &Unit) {
         let mut ledger = self.ledger();
         ledger.auto_track.remove(unit);
@@ -229,13 +232,13 @@ impl Debts {
         self.ledger().auto_track.contains(unit)
     }
 
-    /// The units whose auto-track is to be off and is not read back as off.
+    /// Returns the units whose auto-track must be disabled and was not yet read back as off.
     pub fn with_auto_track(&self) -> Vec<Unit> {
         self.ledger().auto_track.iter().cloned().collect()
     }
 
-    /// Records since when `unit` was moved without proof that it stands. An older `session`
-    /// than the newest is ignored.
+    /// Records the start of the motion of `unit` without proved standstill. Ignores all sessions
+    /// except the newest.
     pub(super) fn keep_unproved(&self, unit: &Unit, session: u64, since: Option<Instant>) {
         let mut ledger = self.ledger();
         if ledger.sessions.get(unit).is_none_or(|(newest, _)| *newest != session) {
@@ -247,7 +250,7 @@ impl Debts {
         }
     }
 
-    /// Since when `unit` was moved without proof that it stands.
+    /// Returns the start of the motion of `unit` without proved standstill.
     pub(super) fn unproved_since(&self, unit: &Unit) -> Option<Instant> {
         self.ledger().unproved.get(unit).copied()
     }
@@ -256,13 +259,13 @@ impl Debts {
         self.ledger().owed.contains(unit)
     }
 
-    /// The units to which a STOP is owed.
+    /// Returns the units to which Azel owes a STOP.
     pub fn units(&self) -> Vec<Unit> {
         self.ledger().owed.iter().cloned().collect()
     }
 
-    /// The units that an earlier run may have left moving, and whose standstill no session has
-    /// proved since.
+    /// Returns the units that an earlier run may have left moving, until a session proves their
+    /// standstill.
     pub fn left_moving(&self) -> Vec<Unit> {
         self.ledger().left.iter().cloned().collect()
     }
@@ -272,7 +275,7 @@ impl Debts {
         self.folder.is_some()
     }
 
-    /// Requests a file that says that `unit` may be moving. A worker writes it.
+    /// Requests a file that records the possible motion of `unit`. A worker writes the file.
     pub(super) fn mark(&self, unit: &Unit, session: u64, mark: Mark) {
         let mut ledger = self.ledger();
         let newest = ledger.marked_by.entry(unit.clone()).or_default();
@@ -285,8 +288,8 @@ impl Debts {
         }
     }
 
-    /// Standstill of `unit` is proved by `session`: requests the removal of its file, unless a
-    /// newer session has marked it.
+    /// Requests the removal of the file of `unit` after `session` has proved standstill, unless a
+    /// newer session has marked the unit.
     pub(super) fn unmark(&self, unit: &Unit, session: u64) {
         let mut ledger = self.ledger();
         if ledger.marked_by.get(unit).is_some_and(|newest| *newest > session) {
@@ -299,7 +302,7 @@ impl Debts {
         }
     }
 
-    /// Progress of the file that says that `unit` may be moving.
+    /// Returns the progress of the file about the possible motion of `unit`.
     pub(super) fn mark_kept(&self, unit: &Unit) -> PromisedFile {
         self.path(unit, STOP).map_or(PromisedFile::OnDisk, |path| self.promises.promised(&path))
     }
@@ -309,7 +312,7 @@ impl Debts {
         self.marked(unit).is_some()
     }
 
-    /// The mark of `unit` on disk. An unreadable one holds no time. Blocks.
+    /// Reads the mark of `unit` from disk. An unreadable mark has no time. Blocks.
     pub(super) fn marked(&self, unit: &Unit) -> Option<Mark> {
         let unreadable = Mark { since: None, tried: None };
         match self.promises.read(&self.path(unit, STOP)?) {
@@ -318,7 +321,7 @@ impl Debts {
         }
     }
 
-    /// The mark of `unit` that `session` found on disk is its to remove. Blocks.
+    /// Reads the mark of `unit` from disk; from now on, `session` may remove it. Blocks.
     pub(super) fn take_over_mark(&self, unit: &Unit, session: u64) -> Option<Mark> {
         let mark = self.marked(unit)?;
         let mut ledger = self.ledger();
@@ -328,14 +331,13 @@ impl Debts {
     }
 }
 
-/// The file of a debt to `unit`.
 fn file<T: Serialize>(unit: &Unit, debt: T) -> Result<FileState, String> {
     let record = Record { unit: unit.clone(), debt };
     toml::to_string(&record).map(FileState::Holds).map_err(|error| error.to_string())
 }
 
-/// Reads the files of `folder` whose names end so. One that cannot be read names no unit: it stays,
-/// and the log says what that means.
+/// Reads the files of `folder` with this name ending. An unreadable file names no unit: it stays,
+/// and the log explains its meaning.
 fn found<T: DeserializeOwned>(folder: &Path, ending: &str, meaning: &str) -> Vec<(Unit, T)> {
     let read = |path: PathBuf| {
         let text = fs::read_to_string(&path).map_err(io::Error::other);
@@ -353,21 +355,21 @@ fn files(folder: &Path) -> impl Iterator<Item = PathBuf> {
     files.filter_map(|file| Some(file.ok()?.path()))
 }
 
-/// The kind of a file by its name; the longest ending counts.
+/// Returns the name ending of a debt file; prefers the longest match.
 fn ending_of(path: &Path) -> Option<&'static str> {
     let name = path.file_name()?.to_string_lossy();
     [AUTO_TRACK, OFFSETS, STOP].into_iter().find(|ending| name.ends_with(ending))
 }
 
-/// Renames the files of addresses with capitals, as earlier versions wrote them, so that their units
-/// find them. A file that cannot be read or renamed stays, and the log says so.
+/// Renames the files of addresses with capitals, which earlier versions wrote, because units look
+/// for lower-case names. A file that cannot be read or renamed stays, with a note in the log.
 fn lowercase_names(folder: &Path, promises: &Promises) {
     for path in files(folder) {
         let renamed = with_lowercase_address(&path).map_err(|error| error.to_string());
         let renamed = renamed.and_then(|renamed| {
             let Some((name, text)) = renamed else { return Ok(()) };
             let target = folder.join(name);
-            // This version wrote the other one, which is newer.
+            // This version wrote the target, so the target is newer.
             if !target.exists() {
                 promises.put_and_wait(&target, FileState::Holds(text))?;
             }
@@ -387,7 +389,7 @@ fn lowercase_names(folder: &Path, promises: &Promises) {
 fn with_lowercase_address(path: &Path) -> io::Result<Option<(String, String)>> {
     let Some(ending) = ending_of(path) else { return Ok(None) };
     let text = fs::read_to_string(path)?;
-    // The reader reports other files.
+    // The reader reports unreadable files.
     let Ok(mut table) = toml::from_str::<toml::Table>(&text) else { return Ok(None) };
     let Ok(unit) = toml::Value::Table(table.clone()).try_into::<Unit>() else { return Ok(None) };
     let address = unit.address.to_lowercase();

@@ -1,4 +1,4 @@
-//! Repeatable randomness of tests.
+//! Repeatable random numbers for tests.
 
 use proptest::{
     prelude::Rng as _,

@@ -1,8 +1,8 @@
-//! The gate: the one check that every motion passes.
+//! Gate: the one check that every motion passes.
 //!
-//! Invariant: the gate owns the controller and hands out only its [`Device`] side, so no other
-//! code can start a motion. A new rule is one more entry of [`RULES`], and one more case of
-//! the table that proves it necessary (`tests/each_rule.rs`).
+//! Invariant: the gate owns the controller and hands out only its [`Device`] side, so no other code
+//! can start a motion. To add a rule, extend [`RULES`] and the table of cases that proves each rule
+//! necessary (`tests/each_rule.rs`).
 
 mod detours;
 mod hands;
@@ -47,29 +47,28 @@ pub(super) use way::Route;
 
 const HALF_TURN: Angle = Angle::from_degrees(180.0);
 
-/// State that the rules see besides the motion.
+/// State that the rules check besides the motion.
 struct Situation<'a> {
     gate: &'a Gate,
     state: &'a AntennaState,
     can: Capabilities,
     intent: Intent,
     stopping: bool,
-    /// A motion was requested, whatever the antenna does.
+    /// `true` if the request includes a motion, even while the antenna stands.
     may_move: bool,
-    /// The operator takes responsibility for an action whose end is unknown here.
+    /// `true` if the operator takes responsibility for an action with an unknown end.
     is_agreed: bool,
     limits: MotionLimits,
     mount: Mount,
     bounds: &'a Bounds,
-    /// Where the axes were at the last position.
+    /// Intervals of the axes at the last position.
     intervals: Option<Intervals>,
-    /// From where the pointing model has the beam to where it is on the sky, if offsets of the axes
-    /// are on.
+    /// Rotation from the modelled beam direction to the true one on the sky, if axis offsets apply.
     to_sky: Option<DQuat>,
-    /// How far ahead of the last position a jog is judged, seconds.
+    /// Time after the last position for which the gate judges a jog, seconds.
     ahead_s: f64,
     lock_out: Option<&'a LockOut>,
-    /// Limits the looks at ways of one search; `None` where a single motion is judged.
+    /// Limit on the path checks of one search; `None` for a single motion.
     budget: Option<&'a Budget>,
     now: Moment,
 }
@@ -81,39 +80,39 @@ pub(super) struct Gate {
     limits: MotionLimits,
     mount: Mount,
     bounds: Bounds,
-    /// Overrun: how long the axes turn on at their rate after a STOP, seconds.
+    /// Overrun: how long the axes continue at their rate after a STOP, seconds.
     overrun_s: f64,
-    /// Where the last motion sent each axis, degrees as the mount counts; `None` where that is
-    /// nowhere or not known.
+    /// Target of the last motion of each axis, degrees as the mount counts; `None` if unknown or
+    /// absent.
     to_deg: [Option<f64>; 2],
-    /// The axes that the last motion turns; in a program track, all axes that it has turned.
+    /// Axes that the last motion turns; in a program track, all axes that it has turned.
     turns: [bool; 2],
-    /// Angles of the axes when the last motion passed, degrees as the mount counts.
+    /// Angles of the axes at the start of the last motion, degrees as the mount counts.
     started_from_deg: Option<[f64; 2]>,
     last_angles: LastAngles,
     watch: MotionWatch,
-    /// When the position that the watch took last came in.
+    /// Receive time of the last position that the watch took.
     looked: Option<Instant>,
-    /// Only questions and halts go to the unit.
+    /// Lock-out of the unit: the gate lets only queries and halts pass.
     lock_out: Option<LockOut>,
-    /// When the last motion passed that is not known to be over.
+    /// Start of the last motion that is not known to be over.
     unproved_since: Option<Instant>,
-    /// The pass on which the unit's own program is started.
+    /// Pass for which the gate judges a start of the unit's own program.
     program: Option<Arc<Judge>>,
     /// Pass that the unit would track on its own.
     next_pass: NextPass,
     judged: Judged,
-    /// The last detour that was looked for.
+    /// Result of the last detour search.
     detour: Option<Detour>,
     /// The operator's permissions.
     permissions: Permissions,
-    /// From where the pointing model has the beam of an antenna that tracks to where it is on the sky,
-    /// if offsets of its axes are on.
+    /// Rotation from the modelled beam direction of a tracking antenna to the true one on the sky,
+    /// if axis offsets apply.
     to_sky: Option<DQuat>,
 }
 
 impl Gate {
-    /// `learned`: what an earlier watch learned of each axis.
+    /// Creates the gate. `learned` contains the earlier lessons about each axis.
     pub(super) fn new(
         controller: Box<dyn Controller>,
         antenna: &Antenna,
@@ -147,7 +146,7 @@ impl Gate {
         }
     }
 
-    /// Without the rule of this name.
+    /// Removes the rule with this name.
     #[cfg(test)]
     fn without(mut self, name: &str) -> Self {
         let before = self.rules.len();
@@ -160,63 +159,65 @@ impl Gate {
         self.lock_out.as_ref()
     }
 
-    /// `None` ends the lock-out.
+    /// Sets the lock-out; `None` ends it.
     pub(super) fn set_lock_out(&mut self, lock_out: Option<LockOut>) {
-        // Changes of settings that wait in the controller must not pass the lock-out either.
+        // The controller must not write pending setting changes during the lock-out either.
         self.controller.lock_changes(lock_out.is_some());
         self.lock_out = lock_out;
     }
 
-    /// When the last motion passed after which standstill was not proved.
+    /// Returns the start of the last motion without proved standstill.
     pub(super) fn unproved_since(&self) -> Option<Instant> {
         self.unproved_since
     }
 
-    /// Another session moved the antenna at this time and did not prove that it stands.
+    /// Records a motion that another session started at this time without proving standstill.
     pub(super) fn was_moved(&mut self, moved_at: Option<Instant>) {
         self.unproved_since = moved_at;
         if let Some(moved_at) = moved_at {
-            // A debt holds the time of the motion, and nothing of where it leads.
+            // A debt records the time of the motion, but not its target.
             self.watch.commanded([Some(Lead::Anywhere); 2], moved_at);
         }
     }
 
     pub(super) fn proved_still(&mut self) {
         self.unproved_since = None;
-        // A motion that ended without a halt, such as a track of the unit, turns nothing any more.
+        // A motion that ended without a halt, such as a track of the unit, turns no axis any more.
         self.turns = [false; 2];
         self.watch.stands();
     }
 
-    /// Angles of the axes when the last motion passed, degrees as the mount counts.
+    /// Returns the angles of the axes at the start of the last motion, degrees as the mount counts.
     pub(super) fn started_from_deg(&self) -> Option<[f64; 2]> {
         self.started_from_deg
     }
 
-    /// Where the last motion sent each axis, degrees as the mount counts; `None` for an axis that
-    /// it does not turn, and after a halt. In a program track the last motion of each axis counts.
+    /// Returns the target of the last motion of each axis, degrees as the mount counts. Returns
+    /// `None` for an axis that the motion does not turn, and after a halt. In a program track, the
+    /// last motion of each axis counts.
     pub(super) fn sent_to_deg(&self) -> [Option<f64>; 2] {
         let [first, second] = self.to_deg;
         let [turns_first, turns_second] = self.turns;
         [first.filter(|_| turns_first), second.filter(|_| turns_second)]
     }
 
-    /// A halt ends what the last motion turns.
+    /// Records a halt, which ends the last motion.
     pub(super) fn halted(&mut self) {
         self.turns = [false; 2];
     }
 
-    /// The axes that the last motion from here turns.
+    /// Returns the axes that Azel's last motion turns.
     pub(super) fn turns(&self) -> [bool; 2] {
         self.turns
     }
 
-    /// A track begins: what was sent before does not count as a part of it.
+    /// Starts a track: earlier targets do not count as a part of it.
     pub(super) fn begin_track(&mut self) {
         self.turns = [false; 2];
     }
 
-    /// A program track commands one axis while the other one is still on its way.
+    /// Records the target of a motion. A program track commands one axis while the other axis is
+    /// still turning.
     fn remember_target(&mut self, motion: Motion, intent: Intent, now: Moment) {
         let (sent_to_deg, turned) = (self.sent_to(motion, now), self.turned_by(motion));
         let goes_on = intent == Intent::Track && matches!(motion, Motion::Position { .. });
@@ -241,7 +242,7 @@ impl Gate {
         }
     }
 
-    /// Last measured angles of the axes, degrees as the mount counts.
+    /// Returns the last measured angles of the axes, degrees as the mount counts.
     pub(super) fn axes_deg(&self) -> Option<[f64; 2]> {
         self.state().measured?.axes_deg(self.variant.capabilities.has_elevation())
     }
@@ -252,33 +253,33 @@ impl Gate {
 
     pub(super) fn keep_within(&mut self, bounds: Bounds) {
         self.bounds = bounds;
-        // The bounds of an agreed track to the Sun derive from these.
+        // The bounds of a permitted track to the Sun derive from the bounds set here.
         self.lift_sun(self.lifts_sun());
     }
 
-    /// Overrun: how long the axes turn on at their rate after a STOP, seconds.
+    /// Returns the overrun: how long the axes continue at their rate after a STOP, seconds.
     pub(super) fn overrun_s(&self) -> f64 {
         self.overrun_s
     }
 
-    /// Sets a measured overrun, seconds.
+    /// Replaces the overrun with a measured value, seconds.
     pub(super) fn set_overrun(&mut self, overrun_s: f64) {
         self.overrun_s = overrun_s;
     }
 
-    /// How far ahead of the last position a motion is judged, seconds: the age of the
-    /// position, the time until the next one arrives, and the overrun.
+    /// Returns the time after the last position for which the gate judges a motion, seconds: the
+    /// age of the position, the time until the next position, and the overrun.
     pub(super) fn ahead_s(&self, now: Moment) -> f64 {
         let Some(measured) = self.state().measured else { return self.overrun_s };
         let asked = self.angles_asked().unwrap_or(measured.requested);
         let age = now.steady.saturating_duration_since(asked);
         let reply = measured.received.saturating_duration_since(measured.requested);
-        // A motion is judged again when the next position arrives, which may take as long as the
+        // Azel judges a motion again when the next position arrives, which may take as long as the
         // last.
         (age + reply + self.controller.poll_period()).as_secs_f64() + self.overrun_s
     }
 
-    /// The side of the controller that cannot start a motion.
+    /// Returns the side of the controller that cannot start a motion.
     pub(super) fn device(&mut self) -> &mut dyn Device {
         &mut *self.controller
     }
@@ -311,10 +312,10 @@ impl Gate {
         stopping: bool,
         now: Moment,
     ) -> Result<(), Refusal> {
-        // A refused motion must leave everything that is remembered of the one before.
+        // A refused motion must not change the records of the previous motion.
         self.examine(motion.into(), &self.situation(intent, stopping, now))?;
         self.remember_target(motion, intent, now);
-        // If the answer is lost, a turn since then shows that the motion reached the unit.
+        // If the answer is lost, a turn since then proves that the unit received the motion.
         self.started_from_deg = self.axes_deg();
         self.unproved_since = Some(now.steady);
         self.watch_motion(motion, now);
@@ -330,7 +331,7 @@ impl Gate {
         })
     }
 
-    /// The first refusal of a rule.
+    /// Returns the first refusal of a rule.
     fn ask_rules(&self, ask: impl Fn(Check) -> Result<(), Refusal>) -> Result<(), Refusal> {
         self.rules.iter().try_for_each(|rule| {
             ask(rule.check).inspect_err(|refusal| {
@@ -355,15 +356,15 @@ impl Gate {
             to_sky: self.to_sky_in(intent),
             ahead_s: self.ahead_s(now),
             lock_out: self.lock_out.as_ref(),
-            // A single motion counts no looks: a budget that others had used up could refuse what a
-            // search had just accepted.
+            // A single motion has no budget: a budget used up by others could refuse a motion that
+            // a search just accepted.
             budget: None,
             now,
         }
     }
 
-    /// Carries out an action of the make, or returns the reason not to. `is_agreed`: the
-    /// operator takes responsibility for one whose lead is unknown here.
+    /// Executes an action of the make, or returns the reason not to. `is_agreed`: the operator
+    /// takes responsibility for an action with an unknown lead.
     pub(super) fn act(
         &mut self,
         act: Act,
@@ -397,9 +398,9 @@ impl Gate {
         Ok(action)
     }
 
-    /// The motion to a direction of the sky as the axes count: the azimuth axis goes to its
-    /// nearest position. Where one angle stays, flipped axes stay flipped. An error beyond the
-    /// axis, where there is no sky.
+    /// Converts a motion to a direction of the sky into axis angles, by the nearest position of the
+    /// azimuth axis. If one angle stays, flipped axes stay flipped. Returns an error for an angle
+    /// beyond the axis.
     pub(super) fn nearest(&self, motion: Motion) -> Result<Motion, Refusal> {
         let Motion::Position { azimuth, elevation } = motion else { return Ok(motion) };
         if let Some(asked_deg) = elevation.map(Angle::degrees).filter(|deg| *deg > 90.0 + 1e-9) {
@@ -414,7 +415,8 @@ impl Gate {
         })
     }
 
-    /// An azimuth outside one turn that the axis has is meant as the axis counts.
+    /// Returns the nearest axis position for `azimuth`. An azimuth beyond one turn of the axis is
+    /// an axis angle, not a direction.
     fn nearest_azimuth(&self, azimuth: Angle, is_flipped: bool) -> Angle {
         let [(from_deg, to_deg), _] = self.mount.travel_deg();
         let asked_deg = azimuth.degrees();
@@ -427,7 +429,7 @@ impl Gate {
         self.mount.axis_azimuth(side, near_deg)
     }
 
-    /// The end of a motion to a position, as it is sent to the unit.
+    /// Returns the end of a motion to a position, with the angles sent to the unit.
     pub(super) fn aim(&self, motion: &Motion) -> Option<Pointing> {
         let motion = self.controller.as_sent(*motion);
         let Motion::Position { azimuth, elevation } = motion else { return None };
@@ -448,8 +450,8 @@ impl Gate {
         Some(Pointing::of_axes(azimuth, elevation))
     }
 
-    /// Where the antenna points. For an axis without an angle, uses its limit switch or an angle less
-    /// than a second old.
+    /// Returns the direction of the antenna. For an axis without an angle, uses its limit switch or
+    /// an angle less than a second old.
     pub(super) fn pointing(&self) -> Option<Pointing> {
         let reported = self.state().measured?.pointing;
         let has_elevation = self.variant.capabilities.has_elevation();
@@ -466,14 +468,14 @@ impl Gate {
         Some(Pointing { azimuth: Some(azimuth), elevation })
     }
 
-    /// Measured angle of the elevation axis, degrees; `None` without one.
+    /// Returns the measured angle of the elevation axis, degrees; `None` without an angle.
     fn elevation_axis_deg(&self) -> Option<f64> {
         let is_one =
             matches!(self.mount, Mount::AzEl { .. }) && self.variant.capabilities.has_elevation();
         self.state().measured.filter(|_| is_one)?.axes[1].angle_deg
     }
 
-    /// An axis at its upper limit may have no angle.
+    /// Returns `true` for flipped axes, also at the upper limit, where the axis may have no angle.
     fn is_flipped(&self) -> bool {
         let at_upper_end = || {
             let axis = self.state().measured.map(|measured| measured.axes[1]);

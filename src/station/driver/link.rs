@@ -1,4 +1,4 @@
-//! Opens links.
+//! Links to units.
 
 mod endpoint;
 mod parity;
@@ -13,25 +13,25 @@ pub use endpoint::{Endpoint, UnitLock, endpoints, known_endpoints};
 
 use crate::station::{Antenna, Link, check_address};
 
-/// A second handle of an open link, for the dead-man.
+/// Second handle of an open link, for the dead-man.
 #[cfg(unix)]
 pub(super) type Duplicate = std::os::fd::OwnedFd;
-/// Handles cannot be given to other processes here.
+/// Placeholder for a system that cannot pass handles to other processes.
 #[cfg(not(unix))]
 pub(super) type Duplicate = std::convert::Infallible;
 
 pub trait Stream: AsyncRead + AsyncWrite + Send + Unpin {
-    /// Another handle of the same connection, for another process to write to. `None` where
+    /// Duplicates the handle of the connection, for another process to write to. Returns `None` if
     /// the far end lives in this process and ends with it.
     fn duplicate(&self) -> io::Result<Option<Duplicate>>;
 
-    /// `bytes` as they leave the lowest layer of the link, parity included.
+    /// Returns `bytes` in the form of the lowest layer of the link, parity included.
     fn on_wire(&self, bytes: &[u8]) -> Vec<u8> {
         bytes.to_vec()
     }
 }
 
-/// The far end is another task of this process.
+/// Simulated link: the far end is another task of this process.
 impl Stream for DuplexStream {
     fn duplicate(&self) -> io::Result<Option<Duplicate>> {
         Ok(None)
@@ -48,13 +48,13 @@ fn duplicate_of<T>(_: &T) -> io::Result<Option<Duplicate>> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-/// An attempt to open a link.
+/// Pending attempt to open a link.
 pub(super) type Dialling = Pin<Box<dyn Future<Output = io::Result<Box<dyn Stream>>> + Send>>;
 
-/// Opens a link, any number of times.
+/// Function that opens a link, any number of times.
 pub type Dial = Box<dyn FnMut() -> Dialling + Send>;
 
-/// Opens the links of an antenna, to places that `lock` has.
+/// Returns a dialler for the links of an antenna, to endpoints that `lock` owns.
 pub(super) fn dial(antenna: &Antenna, lock: Arc<dyn UnitLock>) -> Dial {
     let connection = &antenna.connection;
     match connection.spec().link {
@@ -63,9 +63,9 @@ pub(super) fn dial(antenna: &Antenna, lock: Arc<dyn UnitLock>) -> Dial {
     }
 }
 
-/// Opens a serial line of seven bits and even parity: through a serial server if `address` is
-/// a host and a port, otherwise as a serial port of this computer at `baud` bits a second.
-/// Callers read and write bytes of seven bits.
+/// Returns a dialler for a serial line of seven bits and even parity. Uses a serial server if
+/// `address` is a host and a port, otherwise a serial port of this computer at `baud` bits a
+/// second. Callers read and write bytes of seven bits.
 pub fn dial_line(address: &str, baud: u32, lock: Arc<dyn UnitLock>) -> Dial {
     if check_address(address).is_ok() {
         tcp::dial_line_server(address, lock)

@@ -1,4 +1,4 @@
-//! Tests a link: asks a unit the questions that its controller asks first, and hangs up.
+//! Link test: sends a unit the first queries of its controller, then disconnects.
 
 use std::{io, sync::Arc, time::Duration};
 
@@ -15,28 +15,28 @@ use crate::{
     station::{Antenna, Link, check_address},
 };
 
-/// Longest time that questions are asked.
+/// Max duration of the queries.
 const ASKING: Duration = Duration::from_secs(2);
-/// Time after the first reply in which the next questions are asked.
+/// Time after the first reply for further queries.
 const MORE: Duration = Duration::from_millis(1200);
-/// Number of bytes that are kept of a stranger's words.
+/// Max number of bytes recorded from an unknown device.
 const HEARD: usize = 256;
-/// Number of letters that are shown of them.
+/// Max number of displayed characters from an unknown device.
 const SHOWN: usize = 40;
 
-/// Asks the unit of `antenna` for two seconds at most, and sends nothing but questions.
+/// Queries the unit of `antenna` for two seconds at most; sends only queries.
 pub async fn test_link(
     antenna: &Antenna,
     outside: &Outside,
     lock: Arc<dyn UnitLock>,
 ) -> LinkFinding {
-    // This side of a controller can neither start a motion nor write a setting by itself.
+    // This side of a controller can neither start a motion nor write a setting.
     let mut device: Box<dyn Device> = antenna.controller();
     let mut dial = (outside.dial)(antenna, lock);
     let connection = &antenna.connection;
     let is_line = matches!(connection.spec().link, Link::Line { .. });
-    // The dial of a serial server guesses anew where the parity is made after a link on which
-    // nothing fitted.
+    // The dialler of a serial server switches the parity guess after a link without any fitting
+    // byte.
     let tries = if is_line && check_address(&connection.address).is_ok() { 2 } else { 1 };
     let mut finding = LinkFinding::Silent;
     for _ in 0..tries {
@@ -91,10 +91,10 @@ async fn talk(
             }
             () = clock.sleep_until(due) => {}
         }
-        // Nobody reads the lines of this link.
+        // This link has no reader of its wire lines.
         while device.next_wire_line().is_some() {}
     }
-    // The unit may have gone first.
+    // The unit may have disconnected first.
     let _ = clock.timeout(WRITE, writer.shutdown()).await;
     device.link_down(clock.now());
     match (asked, replied) {

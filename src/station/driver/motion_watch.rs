@@ -1,7 +1,7 @@
-//! The watch: where each axis can be if nothing moves it but what Azel has commanded and the unit's
-//! own program. Somebody else has moved an axis that is read elsewhere.
+//! Motion watch: the possible interval of each axis if only commands of Azel and the unit's own
+//! program move it. Somebody else has moved an axis whose reading is outside.
 //!
-//! It has no clock and no link, and its memory is bounded.
+//! The watch has no clock and no link, and its memory is bounded.
 
 mod axis;
 mod lead;
@@ -18,29 +18,28 @@ use crate::{
 use axis::AxisWatch;
 pub(super) use lead::Lead;
 
-/// Two readings outside the interval, at least this far apart, make a verdict: one alone may be
-/// misread.
+/// Min time between two readings outside the interval that prove foreign motion: a single reading
+/// may be wrong.
 const APART: Duration = Duration::from_millis(500);
-/// A standing axis that a gust has pushed out swings back within this time.
+/// Max time in which a standing axis swings back after a gust pushed it out.
 const SWINGS_BACK: Duration = Duration::from_secs(9);
 
-/// Properties of an axis that are known beforehand.
+/// Known properties of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct AxisFigures {
     /// Step of the reported angle, degrees.
     pub(super) resolution_deg: f64,
-    /// Largest difference between two angles of an axis that stands in the wind, degrees.
+    /// Max difference between two angles of an axis that stands in the wind, degrees.
     pub(super) sway_deg: f64,
-    /// The unit ends a motion to a position this near to it, degrees.
+    /// Max distance from the target at which the unit ends a motion to a position, degrees.
     pub(super) arrives_within_deg: f64,
-    /// The reported angle jumps by a turn somewhere.
+    /// `true` if the reported angle jumps by a full turn somewhere.
     pub(super) wraps: bool,
 }
 
-/// A reading of one axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct AxisReading {
-    /// Degrees as the mount counts.
+    /// Angle, degrees as the mount counts.
     pub(super) angle_deg: f64,
     pub(super) motion: AxisMotion,
     pub(super) drive: Drive,
@@ -48,24 +47,24 @@ pub(super) struct AxisReading {
     pub(super) received: Instant,
 }
 
-/// An axis that somebody else has moved.
+/// Axis that somebody else has moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Foreign {
     pub(super) axis: usize,
     pub(super) evidence: Evidence,
 }
 
-/// The watch over both axes of an antenna.
+/// Watch over both axes of an antenna.
 #[derive(Debug)]
 pub(super) struct MotionWatch {
     axes: [AxisWatch; 2],
-    /// Number of motions that were sent, and the newest that was answered.
+    /// Number of sent motions, and number of the newest answered motion.
     sent: u64,
     answered: u64,
 }
 
 impl MotionWatch {
-    /// Begins with what was learned of each axis before.
+    /// Creates the watch with the earlier lessons about each axis.
     pub(super) fn new(figures: [AxisFigures; 2], lessons: &[AxisLessons; 2]) -> Self {
         let [first, second] = figures;
         let [first_lessons, second_lessons] = lessons;
@@ -73,19 +72,19 @@ impl MotionWatch {
         Self { axes, sent: 0, answered: 0 }
     }
 
-    /// Returns what was learned of each axis.
     pub(super) fn lessons(&self) -> [AxisLessons; 2] {
         self.axes.each_ref().map(AxisWatch::lessons)
     }
 
-    /// The drives have changed: what was learned no longer holds.
+    /// Discards the lessons, because the drives have changed.
     pub(super) fn forget_lessons(&mut self) {
         for axis in &mut self.axes {
             axis.forget_lessons();
         }
     }
 
-    /// A motion goes out that leads each axis there; an axis with `None` keeps what it has.
+    /// Records an outgoing motion that leads each axis to its lead; an axis with `None` keeps its
+    /// motions.
     pub(super) fn commanded(&mut self, leads: [Option<Lead>; 2], now: Instant) {
         self.sent += 1;
         for (axis, lead) in self.axes.iter_mut().zip(leads) {
@@ -95,7 +94,8 @@ impl MotionWatch {
         }
     }
 
-    /// The unit accepted the oldest motion that was not answered: it ends those before.
+    /// Records that the unit accepted the oldest unanswered motion, which ends the motions before
+    /// it.
     pub(super) fn accepted(&mut self, now: Instant) {
         self.answered = (self.answered + 1).min(self.sent);
         for axis in &mut self.axes {
@@ -103,24 +103,24 @@ impl MotionWatch {
         }
     }
 
-    /// The oldest motion that was not answered was refused, or nobody knows what became of it.
+    /// Records that the unit refused the oldest unanswered motion, or that its outcome is unknown.
     pub(super) fn not_accepted(&mut self) {
         self.answered = (self.answered + 1).min(self.sent);
     }
 
-    /// The link is gone: no answer comes any more.
+    /// Records that the link is gone and no answer will come.
     pub(super) fn not_answered(&mut self) {
         self.answered = self.sent;
     }
 
-    /// Both axes stand: a motion without a known end is over.
+    /// Records that both axes stand: a motion without a known end is over.
     pub(super) fn stands(&mut self) {
         for axis in &mut self.axes {
             axis.stands();
         }
     }
 
-    /// Both axes were proved to stand after a halt: no motion leads on.
+    /// Records proved standstill of both axes after a halt: no motion continues.
     pub(super) fn proved_still(&mut self, now: Instant) {
         self.answered = self.sent;
         for axis in &mut self.axes {
@@ -128,41 +128,42 @@ impl MotionWatch {
         }
     }
 
-    /// Nobody has watched for a while: the next reading begins anew.
+    /// Restarts the watch after a time without readings: the next reading is the new reference.
     pub(super) fn start_anew(&mut self) {
         for axis in &mut self.axes {
             axis.start_anew();
         }
     }
 
-    /// The unit's own program may move both axes.
+    /// Records that the unit's own program may move both axes.
     pub(super) fn opened(&mut self, now: Instant) {
         for axis in &mut self.axes {
             axis.opened(now);
         }
     }
 
-    /// Returns the measured sway of the standing axes, degrees, at most 1; `None` until all `axes` have
-    /// been measured.
+    /// Returns the measured sway of the standing axes, degrees, at most 1; `None` until all `axes`
+    /// have been measured.
     pub(super) fn measured_sway_deg(&self, axes: usize) -> Option<f64> {
         let sways_deg = self.axes.iter().take(axes).map(AxisWatch::measured_sway_deg);
         sways_deg.reduce(|one, other| Some(one?.max(other?))).flatten()
     }
 
-    /// Returns `true` if commands lead each axis to where it is read, after a time without readings. An
-    /// axis that stands may have coasted by `coasts_deg`.
+    /// Returns `true` if commands explain the reading of each axis after a time without readings. A
+    /// standing axis may have coasted by `coasts_deg`.
     pub(super) fn explains(&self, readings: [Option<AxisReading>; 2], coasts_deg: f64) -> bool {
         let mut axes = self.axes.iter().zip(readings);
         let explains = |axis: &AxisWatch, reading: AxisReading| axis.explains(reading, coasts_deg);
         axes.all(|(axis, reading)| reading.is_none_or(|reading| explains(axis, reading)))
     }
 
-    /// The axes that are outside their interval although foreign motion is not yet proved.
+    /// Returns the axes that are outside their interval although foreign motion is not yet proved.
     pub(super) fn suspects(&self, now: Instant) -> [bool; 2] {
         self.axes.each_ref().map(|axis| axis.is_suspect(now))
     }
 
-    /// Takes a reading of each axis that has an angle. Returns an axis that somebody else has moved.
+    /// Takes a reading of each axis that has an angle. Returns an axis that somebody else has
+    /// moved.
     pub(super) fn take(&mut self, readings: [Option<AxisReading>; 2]) -> Option<Foreign> {
         let mut foreign = None;
         for (index, (axis, reading)) in self.axes.iter_mut().zip(readings).enumerate() {

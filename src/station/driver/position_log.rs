@@ -1,5 +1,5 @@
-//! The last measured positions of one antenna. The session writes and the record reads what is
-//! new to it; neither waits for longer than it takes to copy a few numbers.
+//! Log of the last measured positions of one antenna. The session writes positions and the record
+//! reads the new ones; neither waits longer than a copy of a few numbers takes.
 
 use std::{
     collections::VecDeque,
@@ -8,12 +8,11 @@ use std::{
 
 use crate::device::Measured;
 
-/// Maximum number of positions kept: nearly a quarter of an hour at ten a second. A power of two, to
+/// Max number of stored positions: nearly a quarter of an hour at ten a second. A power of two, to
 /// which a `VecDeque` grows.
 const MAX: usize = 8192;
 
-/// The log of one antenna, shared by its session and its readers. Numbers count from 0 without
-/// gaps.
+/// Log of one antenna, shared by its session and its readers. Numbers count from 0 without gaps.
 #[derive(Debug, Clone, Default)]
 pub struct PositionLog(Arc<Mutex<Ring>>);
 
@@ -24,22 +23,22 @@ struct Ring {
 }
 
 impl PositionLog {
-    /// Adds a position unless it is the last one again.
+    /// Adds a position unless it equals the last position.
     pub(crate) fn push(&self, measured: Measured) {
         let mut ring = self.ring();
         if ring.positions.back().is_some_and(|last| last.received == measured.received) {
             return;
         }
         ring.next += 1;
-        // Removed first, so that the memory never grows past what `MAX` takes.
+        // Remove first, so that the memory never exceeds `MAX` positions.
         if ring.positions.len() == MAX {
             ring.positions.pop_front();
         }
         ring.positions.push_back(measured);
     }
 
-    /// The positions from `number` on, oldest first, and the number of the first of them, which is
-    /// higher than `number` where older ones are gone.
+    /// Returns the positions from `number` on, oldest first, and the number of the first returned
+    /// position. That number exceeds `number` if older positions are gone.
     pub fn read_from(&self, number: u64) -> (u64, Vec<Measured>) {
         let ring = self.ring();
         let oldest = ring.next - ring.positions.len() as u64;
@@ -47,13 +46,13 @@ impl PositionLog {
         (number.max(oldest), ring.positions.iter().skip(skip).copied().collect())
     }
 
-    /// Returns `true` if both are the log of the same session.
+    /// Returns `true` if both logs belong to the same session.
     pub fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }
 
     fn ring(&self) -> MutexGuard<'_, Ring> {
-        // A position is whole or absent, whichever thread broke off.
+        // A position is whole or absent, even after a panic of a thread.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

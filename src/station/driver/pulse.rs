@@ -1,4 +1,4 @@
-//! Notices when the driver's thread hangs, from a thread that does not depend on it.
+//! Watchdog for the driver thread, on an independent thread.
 
 use std::{
     io,
@@ -13,29 +13,29 @@ use std::{
 
 use super::Wake;
 
-/// Interval of the driver's beats and of the watchdog's looks.
+/// Interval of the driver's beats and of the watchdog's checks.
 pub(super) const PERIOD: Duration = Duration::from_millis(100);
-/// A driver without a beat for this long hangs.
+/// Time without a beat after which the driver counts as hanging.
 const STANDS_AFTER: Duration = Duration::from_millis(500);
-/// A watchdog that looks later than this was held up itself, by a suspended or overloaded
-/// computer, which holds up the driver as well.
+/// Max delay of a watchdog check. Beyond it, a suspended or overloaded computer delayed both the
+/// watchdog and the driver.
 const LATE: Duration = Duration::from_millis(400);
 /// Interval between reminders while the driver hangs.
 const REMIND: Duration = Duration::from_secs(1);
 
-/// The beats of the driver's thread, and the watchdog's findings.
+/// Beats of the driver thread, and findings of the watchdog.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Pulse(Arc<Shared>);
 
 #[derive(Debug, Default)]
 struct Shared {
     beats: AtomicU64,
-    /// Milliseconds; 0 while it runs.
+    /// Duration of the hang, milliseconds; 0 while the driver runs.
     stood_ms: AtomicU64,
 }
 
 impl Pulse {
-    /// Beats for ever; a task of the driver's thread.
+    /// Sends beats for ever; runs as a task of the driver thread.
     pub(super) async fn beat(self) {
         let mut period = tokio::time::interval(PERIOD);
         loop {
@@ -44,14 +44,14 @@ impl Pulse {
         }
     }
 
-    /// How long the driver has not run, from half a second on.
+    /// Returns how long the driver has not run, if at least half a second.
     pub(super) fn stood_for(&self) -> Option<Duration> {
         let ms = self.0.stood_ms.load(Ordering::Relaxed);
         (ms > 0).then(|| Duration::from_millis(ms))
     }
 
-    /// Starts the watchdog thread. It ends when the returned sender is dropped. `wake` is
-    /// called when the driver hangs, and when it runs again.
+    /// Starts the watchdog thread, which ends when the caller drops the returned sender. The
+    /// watchdog calls `wake` when the driver hangs, and when it runs again.
     pub(super) fn watch(&self, wake: Wake) -> io::Result<mpsc::SyncSender<()>> {
         let (near_end, end) = mpsc::sync_channel(1);
         let pulse = self.clone();
@@ -85,11 +85,11 @@ impl Pulse {
     }
 }
 
-/// Tells a driver that hangs from one that runs.
+/// Detector of a hanging driver.
 #[derive(Debug)]
 struct Watchdog {
     beats: u64,
-    /// When the beats were seen to change last.
+    /// Time of the last observed change of the beats.
     since: Instant,
     looked: Instant,
 }
@@ -99,7 +99,7 @@ impl Watchdog {
         Self { beats: 0, since: now, looked: now }
     }
 
-    /// How long the driver has hung at `now`, after this number of `beats`.
+    /// Returns how long the driver has hung at `now`, after this number of `beats`.
     fn look(&mut self, beats: u64, now: Instant) -> Option<Duration> {
         let was_held_up = now.saturating_duration_since(self.looked) >= LATE;
         self.looked = now;
@@ -115,7 +115,8 @@ impl Watchdog {
 mod tests {
     use super::*;
 
-    /// Looks every tenth of a second, with one more beat for each look in `beats`.
+    /// Checks the driver every tenth of a second; each `true` in `beats` adds a beat before a
+    /// check.
     fn looks(beats: impl IntoIterator<Item = bool>) -> Vec<Option<u64>> {
         let mut now = Instant::now();
         let mut watchdog = Watchdog::new(now);

@@ -1,6 +1,5 @@
-//! The session of one antenna: keeps its link, polls its controller, carries out the intent
-//! and stops what has to be stopped. It lives on the driver's thread and needs neither window
-//! nor frames.
+//! Session of one antenna: keeps its link, polls its controller, executes the intent and stops
+//! motions. A session runs on the driver thread and needs no window.
 
 mod activity;
 mod auto_track;
@@ -97,18 +96,18 @@ pub struct Session {
     commanded: Commanded,
     observed: Observed,
     judging: Judging,
-    /// Checks that [`Session::supervise`] carries out.
+    /// List of the checks that [`Session::supervise`] runs.
     checks: &'static [Check],
     stop: Stop,
-    /// Offsets added to the track that the unit computes.
+    /// Offsets added to the unit's own track.
     unit_offsets: Shifting,
-    /// Answer to the last command that somebody waits for.
+    /// Answer to the last command with a waiting sender.
     answer: Option<Answer>,
 }
 
 impl Session {
-    /// Creates a session of `antenna` that records owed STOPs in `debts`, and the handle to it.
-    /// Nothing happens before [`Self::run`].
+    /// Creates a session of `antenna` that records owed STOPs in `debts`, and its handle. The
+    /// session does nothing before [`Self::run`].
     pub fn new(
         controller: Box<dyn Controller>,
         antenna: &Antenna,
@@ -154,7 +153,7 @@ impl Session {
         }
     }
 
-    /// With `program` as the dead-man of motions by hand.
+    /// Sets `program` as the dead-man of manual motions.
     #[must_use]
     pub fn guarded_by(self, program: PathBuf) -> Self {
         Self { stop: Stop::new(Guard::new(Some(program))), ..self }
@@ -166,7 +165,7 @@ impl Session {
     }
 
     fn publish(&mut self, now: Moment) {
-        // If this session breaks down, the unit's next one must know that the antenna may turn.
+        // After a breakdown, the unit's next session must know that the antenna may turn.
         self.owed.keep_unproved(self.gate.unproved_since());
         let (is_pressed, axes) = (self.stop.is_pressed(), self.setup.can().axes);
         let snapshot = Snapshot {
@@ -204,13 +203,13 @@ impl Session {
         self.wires.publish(snapshot);
     }
 
-    /// The way to the direction that the operator looks at.
+    /// Returns the path to the direction that the operator previews.
     fn preview(&self, now: Moment) -> Option<Arc<Preview>> {
         let to = self.commanded.preview?;
         Some(Arc::new(Preview { target: to, way: self.gate.way_to(to, now) }))
     }
 
-    /// Passes what went over the link on to the wire log, and the position on to its log.
+    /// Copies the link traffic to the wire log, and the position to its log.
     fn record(&mut self) {
         if let Some(measured) = self.gate.state().measured {
             self.wires.log_position(measured);
@@ -237,13 +236,13 @@ impl Session {
         self.clock.now()
     }
 
-    /// Age of the last measured position.
+    /// Returns the age of the last measured position.
     fn position_age(&self, now: Moment) -> Option<Duration> {
         let measured = self.gate.state().measured?;
         Some(now.steady.saturating_duration_since(measured.requested))
     }
 
-    /// Returns `true` if the antenna turns; what else the unit moves does not count.
+    /// Returns `true` if the antenna turns; ignores other motions of the unit.
     fn turns(&self) -> bool {
         let count = self.setup.can().axis_count();
         let axes = self.gate.state().measured.into_iter().flat_map(|measured| measured.axes);
@@ -255,12 +254,12 @@ impl Session {
         self.turns()
             || self.gate.state().program.is_some_and(|program| program.enabled)
             || self.commanded.may_move()
-            // Until the new link is read, the motion of the last one may still be going on.
+            // The last motion may continue until Azel has read the unit on the new link.
             || (self.contact.is_unread() && self.gate.unproved_since().is_some())
             || self.gate.device().motion_under_way()
     }
 
-    /// Returns `true` if the unit was last seen moving anything, or about to.
+    /// Returns `true` if the last reading showed a present or imminent motion of the unit.
     fn active(&self) -> bool {
         let state = self.gate.state();
         state.measured.is_some_and(|measured| measured.moving())

@@ -1,8 +1,8 @@
-//! Finds out if a time service keeps the computer's clock right.
+//! Check whether a time service keeps the computer's clock correct.
 
 use crate::contract::driver::TimeSync;
 
-/// Asks the operating system. May take some seconds.
+/// Queries the operating system. May take some seconds.
 #[cfg(target_os = "linux")]
 pub fn time_sync() -> TimeSync {
     systemd::system_bus().and_then(|bus| systemd::ask(&bus)).unwrap_or_else(|error| {
@@ -11,14 +11,14 @@ pub fn time_sync() -> TimeSync {
     })
 }
 
-/// Nothing can be asked on this operating system.
+/// Reports an unknown state, because this operating system offers no query.
 #[cfg(not(target_os = "linux"))]
 pub fn time_sync() -> TimeSync {
     TimeSync::NotKnown
 }
 
-/// `systemd-timedated` reads the state of the kernel's clock, whichever service keeps it:
-/// systemd's own, chrony or ntpd (`org.freedesktop.timedate1(5)`).
+/// Query of `systemd-timedated`, which reads the state of the kernel's clock. It covers every time
+/// service: systemd's own, chrony or ntpd (`org.freedesktop.timedate1(5)`).
 #[cfg(target_os = "linux")]
 mod systemd {
     use std::time::Duration;
@@ -34,7 +34,7 @@ mod systemd {
     const SERVICE: &str = "org.freedesktop.timedate1";
     const OBJECT: &str = "/org/freedesktop/timedate1";
     const PROPERTIES: &str = "org.freedesktop.DBus.Properties";
-    /// The service is started for the question.
+    /// Max wait for the reply, because the query starts the service.
     const PATIENCE: Duration = Duration::from_secs(10);
 
     pub(super) fn system_bus() -> Result<Connection> {

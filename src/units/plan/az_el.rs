@@ -1,9 +1,9 @@
-//! Elevation over azimuth: where both axes have to stand along a pass. Neither axis exceeds its
-//! rate, so overhead the azimuth sets out early, and while it is off the elevation keeps the error
-//! as small as possible.
+//! Elevation over azimuth: the positions of both axes along a pass. Neither axis exceeds its rate,
+//! so the azimuth sets out early for an overhead pass. The elevation then keeps the error as small
+//! as possible.
 //!
 //! An elevation axis that travels over the zenith reaches every direction in two ways, plain and
-//! flipped. All flips of a pass are tried, and the best is taken.
+//! flipped. The planner tries all flips of a pass and takes the best one.
 
 mod flip;
 mod view;
@@ -17,10 +17,10 @@ use crate::astro::{Angle, AzEl};
 pub(super) use flip::{Flip, FlipChoice};
 use view::{ElevationEnds, SinCos, View, sin_cos};
 
-/// Smallest improvement in pointing, degrees, for which a flip other than the preferred one is
-/// taken: it is not worth moving the elevation over the zenith for less.
+/// Min improvement in pointing for a flip other than the preferred one, degrees. A smaller one does
+/// not justify moving the elevation over the zenith.
 const WORTH_DEG: f64 = 0.1;
-/// An axis that reaches its course within this time, seconds, counts as on it from the beginning.
+/// Max time in which an axis that reaches its course counts as on it from the beginning, seconds.
 const ON_COURSE_S: f64 = 5.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,19 +34,20 @@ pub(super) struct AzElAxes {
     pub(super) rates_deg_s: [f64; 2],
 }
 
-/// Where both axes stand, and how long before a pass.
+/// Positions of both axes, and the time until a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Start {
-    /// Degrees as the mount counts; `None` if unknown.
+    /// Axis positions, degrees as the mount counts; `None` if unknown.
     pub(super) axes_deg: [Option<f64>; 2],
     pub(super) lead_s: f64,
-    /// The path begins where the axes can be at its first sample. If `false`, it begins on the target,
-    /// and the axes catch up with it.
+    /// `true` if the path begins at a position that the axes can reach by its first sample. If
+    /// `false`, it begins on the target, and the axes catch up.
     pub(super) sets_out: bool,
 }
 
 impl Start {
-    /// The departure of axis 0 or 1; `None` if the axis is on its course `targets` from the beginning.
+    /// Returns the departure of axis 0 or 1; `None` if the axis is on its course `targets` from the
+    /// beginning.
     pub(super) fn departure(
         self,
         index: usize,
@@ -61,21 +62,21 @@ impl Start {
     }
 }
 
-/// Where both axes have to stand along a pass.
+/// Planned positions of both axes along a pass.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Planned {
     pub(super) flip: Flip,
-    /// Degrees as the mount counts, one per sample.
+    /// Axis positions, degrees as the mount counts, one per sample.
     pub(super) axes_deg: [Vec<f64>; 2],
-    /// The samples at which the azimuth axis slews a whole turn, because it is at an end.
+    /// Samples at which the azimuth axis slews a whole turn, because it is at an end.
     pub(super) slews: Vec<usize>,
-    /// A detour leads round a keep-out.
+    /// `true` if the path contains a detour round a keep-out.
     pub(super) goes_round: bool,
 }
 
 impl AzElAxes {
-    /// The positions along `samples`, `step_s` seconds apart, with the flip that has the smallest
-    /// error from where the axes stand now; `prefer` if no other is better.
+    /// Returns the positions along `samples`, `step_s` seconds apart, with the flip of the smallest
+    /// error from the current axis positions. Returns the flip `prefer` if no other is better.
     pub(super) fn best(
         &self,
         samples: &[Sample],
@@ -103,7 +104,7 @@ impl AzElAxes {
         best
     }
 
-    /// The flips other than [`Flip::None`] that the axes can make along `samples`.
+    /// Returns the flips other than [`Flip::None`] that the axes can make along `samples`.
     pub(super) fn others(&self, samples: &[Sample]) -> impl Iterator<Item = Flip> + use<> {
         let can_flip = self.elevation_deg.is_some_and(|(_, highest_deg)| highest_deg > 90.0);
         let is_high = samples.iter().any(|sample| view::is_overhead(sample.direction));
@@ -111,9 +112,9 @@ impl AzElAxes {
         std::iter::once(Flip::Whole).chain(overhead_flips).filter(move |_| can_flip)
     }
 
-    /// The positions with this `flip` along `samples`, `step_s` seconds apart. The azimuth axis
-    /// begins on the wrap that lasts longest, or on the nearest of several. Where a direction is
-    /// out of travel, the axes wait as near to it as they can.
+    /// Returns the positions with this `flip` along `samples`, `step_s` seconds apart. The azimuth
+    /// axis begins on the wrap that lasts longest, or on the nearest of several. If a direction is
+    /// out of travel, the axes wait as near to it as possible.
     pub(super) fn along(
         &self,
         samples: &[Sample],
@@ -124,7 +125,7 @@ impl AzElAxes {
         let [azimuth_max_deg, elevation_max_deg] = self.rates_deg_s.map(|rate| rate * step_s);
         let flipped = flip.flipped(samples);
         let ends = self.elevation_deg.map(ElevationEnds::new);
-        // The sines and cosines are needed only where an axis does not keep up.
+        // Only an axis that does not keep up needs the sines and cosines.
         let view_at = |index: usize| {
             let (sample, is_flipped) = samples.get(index).zip(flipped.get(index))?;
             Some(View::new(sample.direction, *is_flipped, ends))
@@ -133,8 +134,8 @@ impl AzElAxes {
             let view = view_at(index);
             move |azimuth: &SinCos| view.map_or(0.0, |view| view.azimuth_cost(*azimuth))
         };
-        // First computed as if the axis had no ends, so that a turn of the sky that the axis does
-        // not make in time does not take it to an end.
+        // First ignore the ends of the axis. Otherwise a turn of the sky that the axis does not
+        // make in time would take it to an end.
         let azimuths_deg = flip::azimuths_deg(samples, &flipped);
         let free = rate_limited(&azimuths_deg, azimuth_max_deg, None, sin_cos, cost);
         let [azimuth_now_deg, _] = start.axes_deg;
@@ -173,8 +174,8 @@ impl AzElAxes {
         Planned { flip, axes_deg: [azimuths, elevations], slews: wrap.slews, goes_round: false }
     }
 
-    /// The root mean square error along `samples` of axes that set out from `start`, degrees.
-    /// Samples below the reach of the antenna do not count.
+    /// Returns the root mean square error along `samples` of axes that set out from `start`,
+    /// degrees. Samples below the reach of the antenna do not count.
     fn error_deg(&self, samples: &[Sample], step_s: f64, start: Start, planned: &Planned) -> f64 {
         let [azimuths, elevations] = &planned.axes_deg;
         let mut axes_deg = start.axes_deg;
@@ -199,7 +200,7 @@ impl AzElAxes {
         (sum_deg2 / f64::from(count.max(1))).sqrt()
     }
 
-    /// The angle by which the axes point away from `direction`.
+    /// Returns the angle between the direction of the axes and `direction`.
     pub(super) fn misalignment(
         &self,
         direction: AzEl,

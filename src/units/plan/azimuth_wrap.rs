@@ -1,10 +1,10 @@
-//! The motion of an azimuth axis through a pass. An axis with ends cannot follow every turn of the
-//! sky, so the turn on which it starts decides whether it has to slew a whole turn in the middle.
+//! Motion of an azimuth axis through a pass. An axis with ends cannot follow every turn of the sky,
+//! so its initial turn decides whether it must slew a whole turn in the middle.
 
 const TURN_DEG: f64 = 360.0;
 
-/// The ends of an azimuth axis, in degrees from north through east as the axis counts: 0 to 360 for
-/// most, 0 to 450 or -180 to 540 for others, or less than a turn.
+/// Ends of an azimuth axis, in degrees from north through east as the axis counts: usually 0 to
+/// 360, also 0 to 450 or -180 to 540, or less than a turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct AzimuthRange {
     from_deg: f64,
@@ -12,7 +12,7 @@ pub(super) struct AzimuthRange {
 }
 
 impl AzimuthRange {
-    /// An axis from `from_deg` to `to_deg`; `None` if there is nothing between them or if they
+    /// Creates the range from `from_deg` to `to_deg`; `None` for an empty range or for values that
     /// are not numbers.
     pub(super) fn new((from_deg, to_deg): (f64, f64)) -> Option<Self> {
         let is_one = from_deg.is_finite() && to_deg > from_deg && to_deg.is_finite();
@@ -23,7 +23,7 @@ impl AzimuthRange {
         (self.from_deg..=self.to_deg).contains(&axis_deg)
     }
 
-    /// All positions of the axis that point to `azimuth_deg`, in ascending order.
+    /// Returns all positions of the axis that point to `azimuth_deg`, in ascending order.
     fn positions(self, azimuth_deg: f64) -> impl Iterator<Item = f64> {
         let lowest = self.from_deg + (azimuth_deg - self.from_deg).rem_euclid(TURN_DEG);
         let turns = (0..).map(move |turn: u32| lowest + TURN_DEG * f64::from(turn));
@@ -39,22 +39,22 @@ impl AzimuthRange {
     }
 }
 
-/// The positions of an azimuth axis along a pass.
+/// Positions of an azimuth axis along a pass.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct AzimuthWrap {
-    /// Degrees as the axis counts, one per azimuth.
+    /// Axis positions, degrees as the axis counts, one per azimuth.
     pub(super) positions_deg: Vec<f64>,
-    /// Indices of the positions that the axis reaches by slewing a whole turn, because
-    /// it is at an end.
+    /// Indices of the positions that the axis reaches by slewing a whole turn, because it is at an
+    /// end.
     pub(super) slews: Vec<usize>,
 }
 
 impl AzimuthWrap {
     /// Returns the positions along `azimuths_deg`, which are unwrapped and a few degrees apart,
-    /// with the fewest slews of a whole turn. `axis_now_deg` is where the axis stands: among wraps
-    /// with the same number of slews, this takes the one that begins nearer. Where no position of
-    /// the axis points to an azimuth, the axis waits at an end: before the first azimuth that it
-    /// reaches and after the last at the one next to that, else at the nearer one.
+    /// with the fewest slews of a whole turn. `axis_now_deg` is the current position: among wraps
+    /// with the same number of slews, takes the one with the nearer beginning. If no position of
+    /// the axis points to an azimuth, the axis waits at an end. Before the first azimuth that it
+    /// reaches and after the last, this is the end next to that azimuth; otherwise the nearer end.
     pub(super) fn along(
         azimuths_deg: &[f64],
         range: AzimuthRange,
@@ -117,7 +117,7 @@ mod tests {
         AzimuthWrap::along(azimuths_deg, AzimuthRange::new(ends_deg).unwrap(), now)
     }
 
-    /// Degrees from `start` to `end`, both included.
+    /// Returns the degrees from `start` to `end`, both included.
     fn sweep(start: i32, end: i32) -> Vec<f64> {
         let step = if start < end { 1 } else { -1 };
         (0..=(end - start).abs()).map(|count| f64::from(start + step * count)).collect()
@@ -141,7 +141,8 @@ mod tests {
 
     #[test]
     fn the_turn_that_lasts_is_taken_even_when_it_begins_further_away() {
-        // From 80 down through north to 300: beginning at 440, the axis needs no slew.
+        // The sweep turns from 80 down through north to 300: beginning at 440, the axis needs no
+        // slew.
         let wrap = wrap(&sweep(80, -60), OVERLAP, Some(75.0));
         assert_eq!(start(&wrap), Some(440.0));
         assert!(wrap.slews.is_empty());
@@ -186,7 +187,7 @@ mod tests {
     #[test]
     fn before_and_after_what_it_reaches_an_axis_stands_at_the_end_that_is_next_to_it() {
         const SECTOR: (f64, f64) = (90.0, 270.0);
-        // From 275 through north to the end at 90, and back.
+        // The sweep turns from 275 through north to the end at 90, and back.
         let (out, back) = (sweep(275, 460), sweep(460, 275));
         let waits = |wrap: &AzimuthWrap| {
             let at_end =
@@ -195,7 +196,7 @@ mod tests {
         };
         assert_eq!(waits(&wrap(&out, SECTOR, None)), (176, 0));
         assert_eq!(waits(&wrap(&back, SECTOR, None)), (176, 0));
-        // A sweep that lies wholly beyond has no such end.
+        // A sweep that lies wholly beyond the travel has no such end.
         let past_travel = wrap(&sweep(280, 440), SECTOR, None);
         assert_eq!(
             (start(&past_travel), past_travel.positions_deg.last()),

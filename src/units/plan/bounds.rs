@@ -1,11 +1,11 @@
-//! The bounds of an antenna: minimum elevation, keep-outs and the Sun.
+//! Bounds of an antenna: minimum elevation, keep-outs and the Sun.
 //!
 //! A direction has a *clearance* from each barrier: the angle to its edge, negative inside. The
-//! clearance changes by no more than the direction does, so checking the middle of a range of axis
-//! angles either settles the whole range or shows that its halves have to be checked.
+//! clearance changes by no more than the direction does. So a check of the middle of a range of
+//! axis angles either settles the whole range or shows that its halves need checks.
 //!
-//! With a pointing model, or while offsets of the axes are on, a position of the axes has two
-//! directions: what the axes count, and that of the beam. The lesser clearance counts.
+//! With a pointing model or with axis offsets, a position of the axes has two directions: by the
+//! axes, and by the beam. The smaller clearance counts.
 
 mod aim;
 mod blocks;
@@ -31,56 +31,56 @@ use near::{BarrierName, Clear, Near};
 use sun::SunAhead;
 pub use sweep::Sweep;
 
-/// How far a motion may go beyond an edge, degrees; the margins of keep-outs and of the Sun are
+/// Max depth of a motion beyond an edge, degrees; the margins of keep-outs and of the Sun are
 /// widened by the same angle.
 pub(super) const FINEST_DEG: f64 = 0.05;
 
-/// One of the bounds: minimum elevation, a keep-out or the Sun.
+/// Single bound: minimum elevation, a keep-out or the Sun.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Barrier {
-    /// The minimum elevation of the antenna.
+    /// Minimum elevation of the antenna.
     MinimumElevation,
-    /// A keep-out, by name.
+    /// Keep-out with this name.
     KeepOut(SmolStr),
-    /// The surroundings of the Sun.
+    /// Surroundings of the Sun.
     Sun,
-    /// Bounds that are not known, because this setting of the station file could not be read.
+    /// Unknown bounds, because Azel could not read this setting of the station file.
     Unread(SmolStr),
 }
 
-/// A barrier and the clearance of a direction from it.
+/// Barrier, and the clearance of a direction from it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clearance {
     pub barrier: Barrier,
-    /// Negative inside.
+    /// Clearance angle, negative inside.
     pub angle: Angle,
-    /// The operator is warned; motion is neither refused nor stopped.
+    /// `true` for a warning to the operator only: the barrier neither refuses nor stops motion.
     pub warns_only: bool,
 }
 
-/// Where the axes stand with regard to a barrier that refuses motion.
+/// Position of the axes relative to a barrier that refuses motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Standing {
     Outside,
     MayBeInside,
-    /// The work of the search ended first.
+    /// Unsettled position: the search exhausted its budget first.
     Unsettled,
 }
 
-/// The bounds of one antenna.
+/// Barriers of one antenna: minimum elevation, keep-outs and the Sun.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bounds {
     site: Site,
     mount: Mount,
     has_elevation: bool,
-    /// `None` for an antenna whose axes read what they point to.
+    /// Pointing model; `None` for an antenna whose axes read the direction of the beam.
     model: Option<PointingModel>,
-    /// `None` for an antenna without an elevation axis.
+    /// Minimum elevation; `None` for an antenna without an elevation axis.
     minimum_elevation: Option<Angle>,
-    /// The keep-outs of the antenna, each with its whole margin.
+    /// Keep-outs of the antenna, each with its whole margin.
     keep_outs: Vec<(KeepOut, Angle)>,
     sun: Option<SunAvoidance>,
-    /// Place of a setting that could not be read, so the bounds are not known.
+    /// Place of an unreadable setting, which makes the bounds unknown.
     unread: Option<SmolStr>,
 }
 
@@ -99,7 +99,7 @@ impl Bounds {
             model: Some(antenna.track_model()).filter(|model| !model.is_none()),
             minimum_elevation: has_elevation.then_some(minimum),
             keep_outs: holds
-                // The edge of the beam has to stay outside, not only its middle.
+                // The edge of the beam must stay outside, not only its middle.
                 .map(|zone| (zone.clone(), half_beam + zone.margin() + finest))
                 .collect(),
             sun: station.sun_avoidance,
@@ -107,13 +107,13 @@ impl Bounds {
         }
     }
 
-    /// Place in the station file of a setting on which safety depends and which could not be read.
-    /// Until it is repaired, the bounds are not known.
+    /// Returns the place in the station file of an unreadable safety setting. The bounds are
+    /// unknown until the setting is repaired.
     pub fn unread(&self) -> Option<&SmolStr> {
         self.unread.as_ref()
     }
 
-    /// The bounds of an antenna without a station: only its minimum elevation.
+    /// Returns the bounds of an antenna without a station: only its minimum elevation.
     pub fn of_antenna(antenna: &Antenna) -> Self {
         Self::new(&Station::default(), antenna)
     }
@@ -122,7 +122,7 @@ impl Bounds {
         self.mount
     }
 
-    /// The direction that the axes count at `axes_deg`, degrees as the mount counts.
+    /// Returns the direction of the axes at `axes_deg`, degrees as the mount counts.
     pub fn direction(&self, axes_deg: [f64; 2]) -> AzEl {
         self.mount.direction(axes_deg)
     }
@@ -144,13 +144,13 @@ impl Bounds {
         self.sun.is_some() || self.keep_outs.iter().any(|(zone, _)| zone.entered != Entered::Warn)
     }
 
-    /// Returns `true` if any keep-out is to be gone round.
+    /// Returns `true` if any keep-out permits a detour.
     pub(super) fn has_way_round(&self) -> bool {
         self.keep_outs.iter().any(|(zone, _)| zone.entered == Entered::GoRound)
     }
 
-    /// Returns `true` if the antenna, with its axes at `axes_deg`, points into a keep-out that is to
-    /// be gone round, or less than `room_deg` outside its margin.
+    /// Returns `true` if the antenna, with its axes at `axes_deg`, points into a keep-out with a
+    /// detour, or less than `room_deg` outside its margin.
     pub(super) fn is_gone_round(&self, axes_deg: [f64; 2], room_deg: f64) -> bool {
         let (aim, room) = (self.aim(axes_deg), Angle::from_degrees(room_deg));
         let mut rounded =
@@ -172,27 +172,28 @@ pub struct BoundsAt<'a> {
     minimum_elevation: Option<Angle>,
     sun: Option<SunAhead>,
     model: Option<PointingModel>,
-    /// From where the beam is by the model to where it is on the sky, while offsets of the axes make
-    /// up for errors of the mount.
+    /// Rotation from the modelled beam direction to the true one on the sky, while axis offsets
+    /// correct errors of the mount.
     to_sky: Option<DQuat>,
-    /// `None` if each look may examine as many edges as a single one.
+    /// Shared budget; `None` if each check may examine as many edges as a single one.
     budget: Option<&'a Budget>,
 }
 
 impl<'a> BoundsAt<'a> {
-    /// The same for one of many looks that share `budget`.
+    /// Limits the check to `budget`, which several checks share.
     #[must_use]
     pub fn with_budget(self, budget: Option<&'a Budget>) -> Self {
         Self { budget, ..self }
     }
 
-    /// The same for several looks, which share `budget` unless they share one already.
+    /// Limits several checks to `budget`, unless they already share one.
     fn sharing<'b>(&'b self, budget: &'b Budget) -> BoundsAt<'b> {
         BoundsAt { budget: Some(self.budget.unwrap_or(budget)), ..self.clone() }
     }
 
-    /// The least clearance from every barrier among the positions in `place`: exact where that is
-    /// one position, else taken from samples, and negative where [`Self::blocks`] finds a way in.
+    /// Returns the smallest clearance from every barrier among the positions in `place`. It is
+    /// exact for a single position, otherwise from samples, and negative if [`Self::blocks`] finds
+    /// a way in.
     pub fn min_clearances(&self, place: Sweep) -> Vec<Clearance> {
         let within_deg = place.sampled_within_deg() * self.max_beam_turn();
         let clearances = self.each_in(place).into_iter().enumerate();
@@ -200,7 +201,7 @@ impl<'a> BoundsAt<'a> {
         let sharing = self.sharing(&shared);
         clearances
             .map(|(index, (barrier, angle, warns_only))| {
-                // Samples may miss a barrier between them, so a near one is searched by halves.
+                // Samples may miss a barrier between them, so search a near barrier by halves.
                 let may_hide = (0.0..within_deg).contains(&angle.degrees());
                 let hides = may_hide && sharing.blocks_from(place, Some(index)).is_some();
                 let angle = if hides { Angle::from_degrees(-FINEST_DEG) } else { angle };
@@ -209,8 +210,8 @@ impl<'a> BoundsAt<'a> {
             .collect()
     }
 
-    /// For each barrier, in the order of [`Self::clearances`], whether all samples of `place` are
-    /// inside it.
+    /// Returns for each barrier, in the order of [`Self::clearances`], whether all samples of
+    /// `place` are inside.
     pub fn holds_all_of(&self, place: Sweep) -> Vec<bool> {
         let mut samples = place.samples().map(|sample| self.aim(sample));
         let first = samples.next().into_iter().flat_map(|aim| self.named_clearances(aim));
@@ -226,7 +227,7 @@ impl<'a> BoundsAt<'a> {
         is_inside
     }
 
-    /// The clearance from every barrier of axes that count `direction`.
+    /// Returns the clearance from every barrier for axes that count `direction`.
     pub fn clearances(&self, direction: AzEl) -> Vec<Clearance> {
         let named_clearances = self.named_clearances(self.aim_at(direction));
         named_clearances
@@ -238,8 +239,8 @@ impl<'a> BoundsAt<'a> {
             .collect()
     }
 
-    /// The nearest barrier that refuses motion, of axes that count `direction`; `None` if there is
-    /// none.
+    /// Returns the nearest barrier that refuses motion, for axes that count `direction`; `None`
+    /// without such a barrier.
     pub fn nearest(&self, direction: AzEl) -> Option<Clearance> {
         let mut nearest: Option<(BarrierName<'_>, Angle)> = None;
         for barrier in self.barriers(self.aim_at(direction)).filter(|barrier| !barrier.warns_only) {
@@ -252,8 +253,8 @@ impl<'a> BoundsAt<'a> {
         Some(Clearance { barrier: name.clone_of(), angle, warns_only: false })
     }
 
-    /// The keep-out or the surroundings of the Sun that the antenna is in with axes that count
-    /// `direction`.
+    /// Returns the keep-out, or the surroundings of the Sun, that contains the antenna with axes
+    /// that count `direction`.
     pub fn forbids(&self, direction: AzEl) -> Option<Barrier> {
         let entered = self.barriers(self.aim_at(direction)).filter_map(|barrier| {
             let angle = barrier.angle_below(Angle::ZERO).filter(|_| !barrier.warns_only)?;
@@ -263,12 +264,13 @@ impl<'a> BoundsAt<'a> {
         deepest(entered.collect())
     }
 
-    /// The keep-out, or the surroundings of the Sun, that the antenna may be in within `place`.
+    /// Returns the keep-out, or the surroundings of the Sun, that may contain the antenna within
+    /// `place`.
     pub fn may_forbid(&self, place: Sweep) -> Option<Barrier> {
         deepest(self.min_clearances(place))
     }
 
-    /// The first barrier that refuses motion and that the axes may be inside of in `place`.
+    /// Returns the first barrier that refuses motion and may contain the axes in `place`.
     pub fn may_be_inside(&self, place: Sweep) -> Option<Barrier> {
         let pairs = self.barriers(self.aim(place.middle())).zip(self.stands(place));
         pairs
@@ -277,39 +279,38 @@ impl<'a> BoundsAt<'a> {
             .next()
     }
 
-    /// The same bounds without the minimum elevation, for a unit that enforces its own.
+    /// Removes the minimum elevation, for a unit that enforces its own.
     #[must_use]
     pub fn above_the_floor(self) -> Self {
         Self { minimum_elevation: None, ..self }
     }
 
-    /// The same bounds with the minimum elevation lower by this angle.
+    /// Lowers the minimum elevation by this angle.
     #[must_use]
     pub fn with_floor_lower_by(self, dip: Angle) -> Self {
         let minimum_elevation = self.minimum_elevation.map(|minimum| minimum - dip);
         Self { minimum_elevation, ..self }
     }
 
-    /// The same bounds for a beam that is elsewhere by `to_sky`, if it is given, than the model has
-    /// it.
+    /// Rotates the modelled beam by `to_sky`, if set.
     #[must_use]
     pub fn turned_by(self, to_sky: Option<DQuat>) -> Self {
         Self { to_sky, ..self }
     }
 
-    /// The same bounds for a direction that is the one on the sky.
+    /// Removes the model, for a direction that is already on the sky.
     #[must_use]
     pub fn without_model(self) -> Self {
         Self { model: None, ..self }
     }
 
-    /// Largest angle by which the beam turns for each degree of an axis.
+    /// Returns the max angle by which the beam turns for each degree of an axis.
     pub(super) fn max_beam_turn(&self) -> f64 {
         self.model.map_or(1.0, |model| model.max_beam_turn())
     }
 
-    /// The bounds without the barriers that the axes may be inside of. Keeps a barrier if the search
-    /// ended before it settled that.
+    /// Returns the bounds without the barriers that may contain the axes. Keeps a barrier if the
+    /// search ended before it settled the position.
     pub fn without_entered(&self, place: Sweep) -> Bounds {
         let mut standings = self.stands(place).into_iter();
         let mut is_kept = || standings.next() != Some(Standing::MayBeInside);
@@ -320,8 +321,8 @@ impl<'a> BoundsAt<'a> {
         rest
     }
 
-    /// For each barrier, in the order of [`Self::clearances`], where the axes stand, which may be
-    /// anywhere in `place`.
+    /// Returns the position of the axes relative to each barrier, in the order of
+    /// [`Self::clearances`]. The axes may be anywhere in `place`.
     fn stands(&self, place: Sweep) -> Vec<Standing> {
         let is_one = place.radius_deg() <= 0.0;
         let shared = Budget::default();
@@ -345,8 +346,8 @@ impl<'a> BoundsAt<'a> {
             .collect()
     }
 
-    /// The first barrier that the axes may enter within `sweep`, and a direction inside it. From
-    /// below the minimum elevation, no motion may lead lower than `start` may be.
+    /// Returns the first barrier that the axes may enter within `sweep`, and a direction inside it.
+    /// From below the minimum elevation, no motion may lead lower than `start` may be.
     pub fn blocks(&self, sweep: Sweep, start: Sweep) -> Option<(Barrier, AzEl)> {
         let lowest = self.lowest(start).elevation;
         if self.minimum_elevation.is_some_and(|minimum| lowest < minimum) {
@@ -360,8 +361,8 @@ impl<'a> BoundsAt<'a> {
         self.blocks_from(sweep, None).map(|reached| (reached.barrier, reached.direction))
     }
 
-    /// Like [`Self::blocks`], for an unknown position within `start`: any descent counts as one below
-    /// the minimum elevation if it may lead there.
+    /// Does the same as [`Self::blocks`] for an unknown position within `start`: any descent counts
+    /// as a descent below the minimum elevation if it may lead there.
     pub fn blocks_unseen(&self, sweep: Sweep, start: Sweep) -> Option<(Barrier, AzEl)> {
         if self.lowest(sweep).elevation < self.lowest(start).elevation {
             self.blocks_all(sweep)
@@ -370,15 +371,15 @@ impl<'a> BoundsAt<'a> {
         }
     }
 
-    /// Returns `true` if `sweep` leads below the minimum elevation, or lower than a `start` below
-    /// it.
+    /// Returns `true` if `sweep` leads below the minimum elevation, or lower than a `start` that is
+    /// already below it.
     pub fn leads_below_the_floor(&self, sweep: Sweep, start: Sweep) -> bool {
         let lowest = self.lowest(sweep).elevation;
         let is_below = |minimum: Angle| lowest.degrees() < minimum.degrees() - FINEST_DEG;
         self.minimum_elevation.is_some_and(is_below) && is_below(self.lowest(start).elevation)
     }
 
-    /// The lowest corner of `place`, which is the lowest of all its positions.
+    /// Returns the lowest corner of `place`, which is the lowest of all its positions.
     fn lowest(&self, place: Sweep) -> AzEl {
         let corners = place.corners().map(|corner| self.bounds.direction(corner));
         corners.into_iter().fold(AzEl::from_degrees(0.0, 90.0), |lowest, corner| {
@@ -386,8 +387,8 @@ impl<'a> BoundsAt<'a> {
         })
     }
 
-    /// Returns `true` if the antenna, with its axes at `axes_deg`, is `room_deg` outside every barrier
-    /// that refuses motion. The minimum elevation needs no room.
+    /// Returns `true` if the antenna, with its axes at `axes_deg`, is `room_deg` outside every
+    /// barrier that refuses motion. The minimum elevation needs no room.
     pub(super) fn has_room(&self, axes_deg: [f64; 2], room_deg: f64) -> bool {
         self.has_room_at(self.aim(axes_deg), room_deg)
     }
@@ -402,7 +403,8 @@ impl<'a> BoundsAt<'a> {
         })
     }
 
-    /// As [`Self::named_clearances`], with the least clearance among the positions in `place`, from samples.
+    /// Returns the same as [`Self::named_clearances`], with the smallest clearance among the
+    /// positions in `place`, from samples.
     fn each_in(&self, place: Sweep) -> Vec<(BarrierName<'_>, Angle, bool)> {
         let barriers: Vec<_> = self.barriers(self.aim(place.middle())).collect();
         let groups: Vec<_> = (0..barriers.len()).map(Some).collect();
@@ -427,7 +429,8 @@ impl<'a> BoundsAt<'a> {
             + usize::from(self.sun.is_some())
     }
 
-    /// The barrier at `index`: first the minimum elevation, then the keep-outs, then the Sun.
+    /// Returns the barrier at `index`: first the minimum elevation, then the keep-outs, then the
+    /// Sun.
     fn barrier(&self, index: usize, aim: Aim, vectors: AimVectors) -> Option<Near<'_>> {
         let zone_index = match self.minimum_elevation {
             Some(minimum) if index == 0 => {
@@ -457,7 +460,7 @@ impl<'a> BoundsAt<'a> {
     }
 }
 
-/// The keep-out or the Sun that is entered deepest.
+/// Returns the keep-out or the Sun with the deepest entry.
 fn deepest(clearances: Vec<Clearance>) -> Option<Barrier> {
     let entered = clearances.into_iter().filter(|clearance| {
         !clearance.warns_only
@@ -545,8 +548,8 @@ mod tests {
     }
 
     proptest! {
-        /// A sweep that counts as free contains no blocked direction. One along an edge counts as
-        /// blocked if the work ends before it is settled.
+        /// A sweep that counts as free contains no blocked direction. A sweep along an edge counts
+        /// as blocked if the search exhausts its budget first.
         #[test]
         fn a_free_sweep_is_free_everywhere(
             az in 0.0..360.0, el in 5.0..90.0, daz in 0.0..90.0, del in 0.0..40.0,

@@ -7,17 +7,18 @@ use super::bounds::BoundsAt;
 /// Grid spacing of the search, degrees.
 const CELL_DEG: f64 = 1.0;
 /// Distance of a route from all margins, degrees: more than half the distance to a diagonal
-/// neighbour on the grid, so that the route is also outside between the two.
+/// neighbour on the grid, so that the route also stays outside between the two.
 const ROOM_DEG: f64 = 0.75;
-/// Maximum number of positions that a search examines: some hundredths of a second for zones
-/// with many corners.
+/// Max number of positions that a search examines: some hundredths of a second for zones with many
+/// corners.
 const MAX_PLACES: usize = 20_000;
-/// Where any route will do, what is left counts so many times: the search heads for the end.
+/// Weight of the remaining distance in a search for any route, which makes the search head for the
+/// end.
 const GREED: u64 = 4;
-/// The grid ends so many positions from the start, which no travel does.
+/// Max number of grid positions from the start; no travel is longer.
 const MAX_CELLS: i32 = 1_000;
-/// Cost of a degree of turn, microseconds: of two routes that take equally long, the
-/// straighter one is taken.
+/// Cost of a degree of turn, microseconds: of two routes with equal durations, the search takes the
+/// straighter one.
 const STRAIGHT: f64 = 1000.0;
 
 /// Travel and rates of two axes.
@@ -25,14 +26,15 @@ const STRAIGHT: f64 = 1000.0;
 pub struct AxisLimits {
     /// Ends of both axes, degrees as the mount counts.
     pub(crate) travel_deg: [(f64, f64); 2],
-    /// Degrees per second.
+    /// Max rates of both axes, degrees per second.
     pub(crate) rates_deg_s: [f64; 2],
     /// Distance of the route from all margins, degrees.
     pub(crate) room_deg: f64,
 }
 
 impl AxisLimits {
-    /// The limits of axes that come to rest within `rests_within_deg` of a commanded position.
+    /// Creates the limits of axes that come to rest within `rests_within_deg` of a commanded
+    /// position.
     pub fn new(travel_deg: [(f64, f64); 2], rates_deg_s: [f64; 2], rests_within_deg: f64) -> Self {
         Self { travel_deg, rates_deg_s, room_deg: ROOM_DEG + rests_within_deg }
     }
@@ -42,21 +44,21 @@ impl AxisLimits {
         axes.all(|((start, end), degrees)| (start..=end).contains(&degrees))
     }
 
-    /// Time until both axes, which move together, have arrived, seconds.
+    /// Returns the time until both axes, which move together, have arrived, seconds.
     pub fn seconds(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> f64 {
         let axes = from_deg.into_iter().zip(to_deg).zip(self.rates_deg_s);
         axes.map(|((start, end), rate)| (end - start).abs() / rate).fold(0.0, f64::max)
     }
 }
 
-/// A position on the grid, relative to the start.
+/// Position on the grid, relative to the start.
 type Cell = (i32, i32);
 
 const NEIGHBOURS: [Cell; 8] =
     [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)];
 
-/// The quickest route of the axes between two positions that stays outside all barriers of `now`,
-/// ends included. `None` if there is no such route, or if an end is not outside.
+/// Returns the quickest route of the axes between two positions that stays outside all barriers of
+/// `now`, including the ends. Returns `None` without such a route, or if an end is not outside.
 pub fn route(
     now: &BoundsAt<'_>,
     limits: &AxisLimits,
@@ -66,7 +68,7 @@ pub fn route(
     between_within(now, limits, (from_deg, to_deg), f64::INFINITY)
 }
 
-/// As [`route`]; a route that takes much more than `max_s` seconds is not looked for.
+/// Does the same as [`route`], but skips routes that take much more than `max_s` seconds.
 pub fn between_within(
     now: &BoundsAt<'_>,
     limits: &AxisLimits,
@@ -74,13 +76,13 @@ pub fn between_within(
     max_s: f64,
 ) -> Option<Vec<[f64; 2]>> {
     let search = RouteSearch::new(now, limits, (from_deg, to_deg));
-    // The cost counts the length of a route too.
+    // The cost includes the length of a route.
     let max = (max_s * 1.1 + 1.0) * 1e6;
     let way = search.way(max as u64, 1)?;
     Some(search.pulled_straight(&way))
 }
 
-/// Returns `true` where a route as [`route`] finds leads from one position to the other.
+/// Returns `true` if [`route`] would find a route between the positions.
 pub fn leads(
     now: &BoundsAt<'_>,
     limits: &AxisLimits,
@@ -90,8 +92,8 @@ pub fn leads(
     RouteSearch::new(now, limits, (from_deg, to_deg)).way(u64::MAX, GREED).is_some()
 }
 
-/// The positions of the route through `turns_deg` in steps of at most `step_deg` on either axis,
-/// without its start.
+/// Returns the positions of the route through `turns_deg` in steps of at most `step_deg` on either
+/// axis, without its start.
 pub fn in_steps(turns_deg: &[[f64; 2]], step_deg: f64) -> Vec<[f64; 2]> {
     let mut places = Vec::new();
     for pair in turns_deg.windows(2) {
@@ -106,11 +108,11 @@ pub fn in_steps(turns_deg: &[[f64; 2]], step_deg: f64) -> Vec<[f64; 2]> {
     places
 }
 
-/// The state of a position in a search.
+/// State of a position in a search.
 #[derive(Debug, Clone, Copy)]
 enum Place {
     Unknown,
-    /// Not free.
+    /// Blocked position.
     Taken,
     Known {
         spent: u64,
@@ -118,7 +120,7 @@ enum Place {
     },
 }
 
-/// The positions within the travel of both axes.
+/// Positions within the travel of both axes.
 struct Grid {
     first: RangeInclusive<i32>,
     second: RangeInclusive<i32>,
@@ -163,7 +165,7 @@ impl Grid {
 struct RouteSearch<'a> {
     now: &'a BoundsAt<'a>,
     limits: &'a AxisLimits,
-    /// Distance from all margins, degrees, also of a beam that turns by more than the axes.
+    /// Distance from all margins, degrees, also for a beam that turns by more than the axes.
     room_deg: f64,
     from_deg: [f64; 2],
     to_deg: [f64; 2],
@@ -188,13 +190,13 @@ impl<'a> RouteSearch<'a> {
         self.limits.holds(axes_deg) && self.now.has_room(axes_deg, room_deg)
     }
 
-    /// In microseconds, because integers are ordered.
+    /// Returns the cost in microseconds, because integers are ordered.
     fn cost(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> u64 {
         let straight_deg = (to_deg[0] - from_deg[0]).hypot(to_deg[1] - from_deg[1]);
         (self.limits.seconds(from_deg, to_deg) * 1e6 + straight_deg * STRAIGHT) as u64
     }
 
-    /// A route that costs at most `max`: the cheapest one with a `greed` of 1.
+    /// Returns a route that costs at most `max`: the cheapest one with a `greed` of 1.
     fn way(&self, max: u64, greed: u64) -> Option<Vec<[f64; 2]>> {
         let room_deg = self.room_deg;
         // Both ends may touch the edge of the room.
@@ -241,7 +243,7 @@ impl<'a> RouteSearch<'a> {
                     }
                 };
                 let cost = spent + step;
-                // Where any route will do, the first one to a place does.
+                // In a search for any route, keep the first route to a place.
                 let is_better = reached.is_none_or(|reached| cost < reached && greed == 1);
                 if !is_better {
                     continue;
@@ -256,8 +258,8 @@ impl<'a> RouteSearch<'a> {
         None
     }
 
-    /// Returns `true` if the route may go straight to the end from here. Beside a margin, the position of
-    /// the grid that is nearest to the end may not be free.
+    /// Returns `true` if the route may go straight to the end from here. Beside a margin, the grid
+    /// position nearest to the end may not be free.
     fn is_last(&self, here_deg: [f64; 2]) -> bool {
         let is_within = |max_deg| {
             let mut axes = here_deg.into_iter().zip(self.to_deg);
@@ -279,8 +281,8 @@ impl<'a> RouteSearch<'a> {
         way
     }
 
-    /// Keeps only the positions at which the route turns. From each of them, a binary search finds how
-    /// far the route can go straight.
+    /// Keeps only the positions at which the route turns. A binary search from each position finds
+    /// how far the route can go straight.
     fn pulled_straight(&self, way: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let mut turns = Vec::from_iter(way.first().copied());
         let mut rest = way;
@@ -368,7 +370,7 @@ mod tests {
         let highest_deg = way.iter().map(|axes| axes[1]).fold(0.0, f64::max);
         assert!((40.0..55.0).contains(&highest_deg), "{way:?}");
         let seconds: f64 = way.windows(2).map(|pair| limits().seconds(pair[0], pair[1])).sum();
-        // The azimuth alone takes 15 s, in which the elevation has time to go up.
+        // The azimuth alone takes 15 s, during which the elevation has time to rise.
         assert!((15.0..22.0).contains(&seconds), "{seconds} {way:?}");
     }
 

@@ -1,5 +1,6 @@
-//! Judges the on-board track of a pass: where the antenna will point according to what the unit
-//! reports, how far that is from the satellite, and why. Pure functions; the reports are arguments.
+//! Judgement of the on-board track of a pass: the predicted direction of the antenna from the
+//! unit's reports, its distance from the satellite, and the causes. All functions are pure; the
+//! reports are arguments.
 
 mod cause;
 mod clear;
@@ -22,19 +23,19 @@ use crate::{
 };
 use path::{NoDirection, UnitPath, spread};
 
-/// A pass that a unit tracks by itself.
+/// Pass that a unit tracks on its own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OnBoardPass {
-    /// The target sent to the unit.
+    /// Target sent to the unit.
     pub target: TrackTarget,
-    /// The best known orbit.
+    /// Best known orbit.
     pub elements: Elements,
     pub site: Site,
-    /// The operator has agreed that the antenna may miss the satellite.
+    /// `true` if the operator has agreed that the antenna may miss the satellite.
     pub is_agreed: bool,
 }
 
-/// The best known orbit, and the site.
+/// Best known orbit, and the site.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct KnownOrbit {
     pub elements: Elements,
@@ -42,8 +43,8 @@ pub struct KnownOrbit {
 }
 
 impl KnownOrbit {
-    /// The pass that a unit with the report `on_board` tracks, in its own window; `None` if the unit
-    /// holds another satellite or reports no window.
+    /// Returns the pass that a unit with the report `on_board` tracks, in its own window; `None` if
+    /// the unit has another satellite or reports no window.
     pub fn pass_of(&self, on_board: &OnBoard) -> Option<OnBoardPass> {
         let held_satellite = on_board.satellite.as_ref()?;
         let (start, end) = on_board.window?;
@@ -63,7 +64,7 @@ impl KnownOrbit {
     }
 }
 
-/// The abilities and limits of an antenna whose unit tracks by itself.
+/// Abilities and limits of an antenna whose unit tracks on its own.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ability {
     /// Arrangement and travel of the axes.
@@ -71,7 +72,7 @@ pub struct Ability {
     pub minimum_elevation: Angle,
     /// Half the beam width.
     pub half_beam: Angle,
-    /// Maximum rate of the axes, degrees per second.
+    /// Max rate of the axes, degrees per second.
     pub maximum_rate_deg_s: f64,
 }
 
@@ -86,30 +87,30 @@ impl Ability {
     }
 }
 
-/// The judgement of an on-board track.
+/// Judgement of an on-board track.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Supervision {
     pub worst: Error,
-    /// The largest error is within the beam, refraction aside: no setting of a unit makes up for
-    /// that, and it costs the ends of a pass, not the pass.
+    /// `true` if the largest error is within the beam, refraction aside. No setting of a unit
+    /// corrects refraction, which affects the ends of a pass, not the pass.
     pub is_within_beam: bool,
     /// Causes, the most likely first.
     pub causes: Vec<Ranked>,
-    /// Values that the unit does not report, or has not been asked for yet.
+    /// Values that the unit does not report, or that Azel has not queried yet.
     pub unknown: Vec<Unknown>,
-    /// The minimum elevation of the unit, if it is below that of the station.
+    /// Minimum elevation of the unit, degrees, if it is below the station's value.
     pub lower_minimum_deg: Option<f64>,
 }
 
 impl Supervision {
-    /// The likeliest cause that makes an error of `deviation`. A small known error is no cause of a large
-    /// one.
+    /// Returns the most likely cause of an error of `deviation`. A small known error is no cause of
+    /// a large one.
     pub fn cause_of(&self, deviation: Angle) -> Option<&Ranked> {
         self.causes.iter().find(|cause| cause.can_make(deviation))
     }
 }
 
-/// A pointing error and its time.
+/// Pointing error and its time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Error {
     /// Angle between the beam axis and the satellite.
@@ -119,18 +120,18 @@ pub struct Error {
     pub time: Timestamp,
 }
 
-/// A pass, prepared for repeated comparison with a unit.
+/// Pass, prepared for repeated comparison with a unit.
 #[derive(Debug, Clone)]
 pub struct Judge {
     pass: OnBoardPass,
     propagator: Propagator,
     ability: Ability,
-    /// Directions in which the satellite appears along the window.
+    /// Apparent directions of the satellite along the window.
     truth: Vec<Sample>,
 }
 
 impl Judge {
-    /// Fails if the elements do not describe an orbit.
+    /// Prepares a pass. Fails if the elements do not describe an orbit.
     pub fn new(pass: OnBoardPass, ability: Ability) -> Result<Self, PropagationError> {
         let propagator = Propagator::new(&pass.elements)?;
         let truth = spread(pass.target.start, pass.target.end)
@@ -150,13 +151,13 @@ impl Judge {
         self.ability
     }
 
-    /// Direction in which the satellite appears at `time`: the one to point at.
+    /// Returns the apparent direction of the satellite at `time`: the direction to point at.
     pub fn direction(&self, time: Timestamp) -> Option<AzEl> {
         Some(self.propagator.look_from(self.pass.site, time).ok()?.direction)
     }
 
-    /// Judges a unit by its report `unit`. `holds_target` says that the target was sent to the
-    /// unit: the satellite that it held before means nothing.
+    /// Judges a unit by its report `unit`. `holds_target`: Azel has sent the target to the unit, so
+    /// its earlier satellite does not matter.
     pub fn supervise(&self, unit: &OnBoard, holds_target: bool) -> Supervision {
         let all = UnitPath::surely(unit, self);
         let none = Error { angle: Angle::ZERO, time: self.pass.target.start };
@@ -177,21 +178,21 @@ impl Judge {
         }
     }
 
-    /// Checks the real track against the limits of the antenna. The error is the first
-    /// position outside them, or the first unknown position.
+    /// Checks the real track against the limits of the antenna. The error is the first position
+    /// outside them, or the first unknown position.
     pub fn is_clear(&self, unit: &OnBoard, bounds: &Bounds) -> Result<(), NotClear> {
         let unit = UnitPath::new(unit, self);
         unit.either_way().try_for_each(|unit| path_is_clear(self.path(unit), &self.ability, bounds))
     }
 
-    /// Where the unit goes if it is started at `time`: to where it waits for the window, or to the
-    /// satellite within it.
+    /// Returns the direction of the unit after a start at `time`: its waiting position before the
+    /// window, or the satellite within it.
     pub fn start(&self, unit: &OnBoard, time: Timestamp) -> Option<AzEl> {
         UnitPath::new(unit, self).direction(time)
     }
 
-    /// The real track according to the report of the unit, from where the unit waits to where it
-    /// ends: samples are at most a second or half a degree apart.
+    /// Returns the real track according to the report of the unit, from its waiting position to its
+    /// end: samples are at most a second or half a degree apart.
     fn path<'a>(
         &'a self,
         unit: UnitPath<'a>,
@@ -207,7 +208,7 @@ impl Judge {
         errors.reduce(worse).unwrap_or(Error { angle: Angle::ZERO, time: self.pass.target.start })
     }
 
-    /// The maximum elevation that the unit will compute for the window.
+    /// Returns the maximum elevation that the unit will compute for the window.
     fn highest(&self, unit: &UnitPath<'_>) -> Option<Angle> {
         let elevations = self.truth.iter().filter_map(|sample| unit.computed(sample.time));
         elevations.map(|direction| direction.elevation).reduce(|a, b| if b > a { b } else { a })

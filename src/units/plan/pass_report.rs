@@ -1,4 +1,5 @@
-//! Report of a pass that an antenna tracked: where it pointed, beside where the satellite was.
+//! Report of a tracked pass: the direction of the antenna, compared with the direction of the
+//! satellite.
 
 mod breaks;
 mod explain;
@@ -28,38 +29,38 @@ use crate::{
     orbit::Propagator,
 };
 
-/// Positions that are further apart tell nothing of the time between, seconds.
+/// Max gap between positions that still describe the time between them, seconds.
 pub const APART_S: f64 = 2.0;
 /// Time between the two directions that give the direction of motion, seconds.
 const MOTION_S: f64 = 0.5;
-/// Share of a pass within half the beamwidth from which it is good.
+/// Min share of a pass within half the beamwidth for a good pass.
 const GOOD: f64 = 0.995;
-/// Share from which it is fair.
+/// Min share for a fair pass.
 const FAIR: f64 = 0.95;
-/// Factor on the computed loss of a mount that a report allows, and seconds that it adds to that.
+/// Factor on the computed loss of a mount that a report allows; the constant below adds seconds.
 const MORE: f64 = 1.25;
 const COMES_BACK_S: f64 = 3.0;
-/// More seconds of a pass without a position make it poor.
+/// Max seconds of a pass without a position, unless it is poor.
 const NOT_KNOWN_S: f64 = 10.0;
 
-/// A pass of an antenna, to be reported on.
+/// Pass of an antenna that needs a report.
 #[derive(Debug, Clone, Copy)]
 pub struct TrackedPass<'a> {
     pub propagator: &'a Propagator,
     pub site: Site,
-    /// Part of the pass that counts: the planned part for the antenna, or without a plan all from
-    /// AOS to LOS above the antenna's minimum elevation.
+    /// Start of the part of the pass that counts: the planned part for the antenna. Without a plan,
+    /// this part lasts from AOS to LOS above the antenna's minimum elevation.
     pub start: Timestamp,
     pub end: Timestamp,
     pub limits: MountLimits,
-    /// The share of that part that the mount can track.
+    /// Trackable share of that part for the mount.
     pub trackability: Trackability,
-    /// When the program ended, if that was before the pass was over.
+    /// End of the program, if it came before the end of the pass.
     pub ended: Option<Timestamp>,
     pub breaks: &'a Breaks,
 }
 
-/// A measured position.
+/// Direction that the unit reported at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeasuredPosition {
     pub time: Timestamp,
@@ -67,7 +68,7 @@ pub struct MeasuredPosition {
 }
 
 impl MeasuredPosition {
-    /// Its direction; an antenna without an elevation axis has an elevation of zero.
+    /// Returns the direction; an antenna without an elevation axis has an elevation of zero.
     pub fn direction(self, has_elevation: bool) -> Option<AzEl> {
         let Pointing { azimuth, elevation } = self.pointing;
         let elevation = elevation.or((!has_elevation).then_some(Angle::ZERO))?;
@@ -75,19 +76,19 @@ impl MeasuredPosition {
     }
 }
 
-/// Report of a pass.
+/// Report of a pass: verdict, pointing errors and losses.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PassReport {
     pub verdict: PassVerdict,
-    /// Seconds that count.
+    /// Duration of the part of the pass that counts, seconds.
     pub counted_s: f64,
-    /// Seconds of them with positions while the pass was commanded.
+    /// Counted seconds with positions while the pass was commanded.
     pub known_s: f64,
-    /// Seconds of them within half the beamwidth.
+    /// Counted seconds within half the beamwidth.
     pub in_beam_s: f64,
-    /// Root of the mean square over the positions that are judged, and the largest of them; `None`
-    /// without one. A position is judged if the satellite was within reach of the mount and the
-    /// antenna had no other reason to be elsewhere.
+    /// Root of the mean square over the judged positions, and the largest error; `None` without a
+    /// judged position. Azel judges a position if the satellite was within reach of the mount and
+    /// no other reason kept the antenna away.
     pub rms: Option<PointingError>,
     pub worst: Option<WorstError>,
     /// Stretches beyond half the beamwidth or without positions, in order.
@@ -95,13 +96,13 @@ pub struct PassReport {
 }
 
 impl PassReport {
-    /// Share of the pass within half the beamwidth.
+    /// Returns the share of the pass within half the beamwidth.
     pub fn share(&self) -> f64 {
         if self.counted_s > 0.0 { self.in_beam_s / self.counted_s } else { 0.0 }
     }
 
-    /// Returns `true` if the error at a time is one of pointing or of the drives. `end`: of what
-    /// counts of the pass.
+    /// Returns `true` if the error at `time` comes from pointing or from the drives. `end`: end of
+    /// the part of the pass that counts.
     pub fn judges(&self, time: Timestamp, end: Timestamp) -> bool {
         let is_there = |lost: &&LostStretch| (lost.start..=lost.end).contains(&time);
         self.losses.iter().filter(is_there).all(|lost| lost.is_judged(end))
@@ -111,16 +112,17 @@ impl PassReport {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PassVerdict {
-    /// At least 99.5 % of what could be had, and never beyond half the beamwidth for other reasons.
+    /// Verdict for at least 99.5 % of the attainable time, and never beyond half the beamwidth for
+    /// other reasons.
     Good,
-    /// At least 95 % of what could be had.
+    /// Verdict for at least 95 % of the attainable time.
     Fair,
-    /// Less, or more than 10 s are not known.
+    /// Verdict for less than 95 %, or for more than 10 s without information.
     Poor,
 }
 
 impl PassVerdict {
-    /// Its word in lists and files.
+    /// Returns the word for lists and files.
     pub fn word(self) -> &'static str {
         match self {
             Self::Good => "good",
@@ -135,16 +137,16 @@ impl PassVerdict {
 pub struct PointingError {
     /// Angle between the beam axis and the satellite.
     pub off_deg: f64,
-    /// Azimuth error, the short way round: large near the zenith.
+    /// Azimuth error by the shorter turn: large near the zenith.
     pub azimuth_deg: f64,
     pub elevation_deg: f64,
-    /// Along the satellite's way; positive where the antenna is ahead.
+    /// Error along the satellite's path; positive if the antenna is ahead.
     pub along_deg: f64,
-    /// Across it; positive to the right of the way as seen from the site.
+    /// Error across the satellite's path; positive to the right of the path as seen from the site.
     pub across_deg: f64,
 }
 
-/// The largest error of a pass.
+/// Largest error of a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct WorstError {
     #[serde(rename = "at")]
@@ -152,7 +154,7 @@ pub struct WorstError {
     pub error: PointingError,
 }
 
-/// A measured position beside where the satellite was.
+/// Measured position, and the direction of the satellite at that time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TrackPoint {
     pub time: Timestamp,
@@ -162,8 +164,9 @@ pub struct TrackPoint {
 }
 
 impl TrackPoint {
-    /// `None` where the position has no direction, or the elements none at its time. A mount without
-    /// an elevation axis counts as pointed at the elevation of the satellite.
+    /// Compares a position with the satellite. Returns `None` if the position has no direction, or
+    /// if the elements yield none at its time. A mount without an elevation axis counts as pointed
+    /// at the elevation of the satellite.
     pub fn new(
         propagator: &Propagator,
         site: Site,
@@ -195,8 +198,8 @@ impl TrackPoint {
 }
 
 impl TrackedPass<'_> {
-    /// The report by `flown`, oldest first: the positions in which this pass was commanded. Those just
-    /// before and after the pass tell when the satellite came into the beam and left it.
+    /// Returns the report by `flown`, the positions with this pass commanded, oldest first.
+    /// Positions just before and after the pass show when the satellite entered and left the beam.
     pub fn report(&self, flown: &[MeasuredPosition]) -> PassReport {
         let counted_s = seconds_between(self.start, self.end).max(0.0);
         let near = add_seconds(self.start, -APART_S)..=add_seconds(self.end, APART_S);
@@ -205,7 +208,7 @@ impl TrackedPass<'_> {
         let stretches = self.stretches(&points);
         let seconds = |is_meant: fn(StretchState) -> bool| {
             let tracked_stretches = stretches.iter().filter(|stretch| is_meant(stretch.state));
-            // The sum of nothing is a negative zero.
+            // An empty sum is a negative zero.
             tracked_stretches.map(Stretch::seconds).sum::<f64>().abs()
         };
         let known_s =
@@ -243,7 +246,8 @@ impl TrackedPass<'_> {
         report
     }
 
-    /// The measured directions that rms and worst of `report`, the report by `flown`, come from.
+    /// Returns the measured directions behind the rms and worst error of `report`, which must be
+    /// the report by `flown`.
     pub fn judged(
         &self,
         report: &PassReport,
@@ -260,7 +264,8 @@ impl TrackedPass<'_> {
             && report.judges(point.time, self.end)
     }
 
-    /// Seconds that this mount may lose: an antenna needs some to come back to its satellite.
+    /// Returns the seconds that this mount may lose, because an antenna needs time to return to its
+    /// satellite.
     fn allowed_s(&self) -> f64 {
         match self.trackability {
             Trackability::Whole => 0.0,
@@ -269,7 +274,7 @@ impl TrackedPass<'_> {
         }
     }
 
-    /// Returns `true` if the mount can point at the satellite then.
+    /// Returns `true` if the mount can point at the satellite at `time`.
     fn is_in_reach(&self, time: Timestamp) -> bool {
         let look = self.propagator.look_from(self.site, time);
         look.is_ok_and(|look| self.limits.mount.reaches(look.direction))

@@ -1,4 +1,4 @@
-//! The pointing model of a mount, as it follows from many passes. Nothing here reads or commands an
+//! Pointing model of a mount, computed from many passes. This module neither reads nor commands an
 //! antenna.
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
-//! Program track: the positions to command so that the pointing error is least and the drives are
-//! spared. Pure functions; positions and time are arguments.
+//! Program track: the positions to command for the smallest pointing error with few drive starts.
+//! All functions are pure; positions and time are arguments.
 
 mod axis;
 mod chase;
@@ -33,19 +33,19 @@ pub struct ProgramTrack {
     pub offsets: TrackOffsets,
 }
 
-/// The phase of a target in its passes.
+/// Phase of a target in its passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TrackPhase {
-    /// Before a pass: the antenna goes to the start of the pass and waits.
+    /// Time before a pass: the antenna goes to the start of the pass and waits.
     Waiting { aos: Timestamp },
-    /// During a pass.
+    /// Time during a pass.
     Tracking,
-    /// After the last pass.
+    /// Time after the last pass.
     Over,
 }
 
 impl TrackPhase {
-    /// Now, or the AOS that is waited for.
+    /// Returns the current time, or the next AOS while waiting.
     pub fn begins(self, now: Timestamp) -> Timestamp {
         match self {
             Self::Waiting { aos } => aos,
@@ -55,7 +55,7 @@ impl TrackPhase {
 }
 
 impl ProgramTrack {
-    /// Without offsets.
+    /// Creates a track without offsets.
     pub fn new(target: Target, site: Site, passes: Vec<(Timestamp, Timestamp)>) -> Self {
         Self { target, site, passes, offsets: TrackOffsets::NONE }
     }
@@ -71,12 +71,12 @@ impl ProgramTrack {
         }
     }
 
-    /// AOS and LOS of the pass at `now`, or of the next one.
+    /// Returns AOS and LOS of the pass at `now`, or of the next one.
     pub fn pass(&self, now: Timestamp) -> Option<(Timestamp, Timestamp)> {
         self.passes.iter().copied().find(|(_, los)| now < *los)
     }
 
-    /// Drops all passes after the one at `now`, or after the next.
+    /// Drops all passes after the pass at `now`, or after the next pass.
     #[must_use]
     pub fn one_pass(mut self, now: Timestamp) -> Self {
         let past_count = self.passes.iter().filter(|(_, los)| *los <= now).count();

@@ -1,27 +1,27 @@
-//! Positions of a rate-limited axis along a course that may be faster, as at the zenith or where
-//! the axis has to slew a whole turn. The axis sets out early and arrives late, so that the
-//! pointing error is least.
+//! Positions of a rate-limited axis along a course that may be faster, such as at the zenith or
+//! during a slew of a whole turn. The axis sets out early and arrives late, which minimises the
+//! pointing error.
 
 mod cheapest;
 
 use std::ops::Range;
 
-/// An axis whose two bounds differ by less than this keeps up; an axis that turns by less in an
-/// interval does not turn at all. Degrees.
+/// Max difference between the two bounds of an axis that keeps up, and max turn per interval of an
+/// axis that does not turn, degrees.
 const SAME_DEG: f64 = 1e-6;
 
 /// Position of an axis that is too far from its course to be on it at the first interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Departure {
     pub(super) at_deg: f64,
-    /// How far the axis turns until the first interval, degrees.
+    /// Turn of the axis until the first interval, degrees.
     pub(super) reach_deg: f64,
 }
 
-/// Positions along `targets` (degrees at equal intervals) that never differ by more than `max_deg`
-/// from one interval to the next, and are within the reach of an axis that sets out from `departure`.
-/// Where the course is slow enough, they are the course itself; elsewhere they minimise the sum of
-/// `cost(interval)(position)`, with each position as `prepare` makes it once for all intervals.
+/// Returns positions along `targets` (degrees at equal intervals) that never differ by more than
+/// `max_deg` between intervals, and that an axis reaches from `departure`. If the course is slow
+/// enough, they equal the course; elsewhere they minimise the sum of `cost(interval)(position)`.
+/// `prepare` converts each position once for all intervals.
 pub(super) fn rate_limited<P, C: Fn(&P) -> f64>(
     targets: &[f64],
     max_deg: f64,
@@ -60,8 +60,8 @@ pub(super) fn rate_limited<P, C: Fn(&P) -> f64>(
     way
 }
 
-/// The lowest and the highest path of an axis that keeps to its rate and touches the course where
-/// it can. The two are the same where the course is slow enough.
+/// Lowest and highest path of an axis that keeps to its rate and touches the course if possible.
+/// Both are equal if the course is slow enough.
 struct Envelope {
     low: Vec<f64>,
     high: Vec<f64>,
@@ -86,7 +86,7 @@ impl Envelope {
         }
     }
 
-    /// The stretches in which the axis does not keep up.
+    /// Returns the stretches in which the axis does not keep up.
     fn slews(&self) -> Vec<Range<usize>> {
         let mut found: Vec<Range<usize>> = Vec::new();
         for (index, (low, high)) in self.low.iter().zip(&self.high).enumerate() {
@@ -102,7 +102,7 @@ impl Envelope {
     }
 }
 
-/// The highest path of the axis that is nowhere above the course.
+/// Returns the highest path of the axis that is nowhere above the course.
 fn lowest(mut way: Vec<f64>, max_deg: f64) -> Vec<f64> {
     let mut before = f64::INFINITY;
     for place in &mut way {
@@ -129,7 +129,7 @@ mod tests {
         way.windows(2).map(|two| (two[1] - two[0]).abs()).fold(0.0, f64::max)
     }
 
-    /// Positions along `targets`, with errors weighted by `weight`.
+    /// Returns positions along `targets`, with errors weighted by `weight`.
     fn weighted(targets: &[f64], weight: &[f64], max_deg: f64) -> Vec<f64> {
         let cost = |index: usize| {
             move |place: &f64| weight[index] * (1.0 - (place - targets[index]).to_radians().cos())
@@ -147,7 +147,7 @@ mod tests {
             .sum()
     }
 
-    /// Positions of an axis that chases the course as fast as it can.
+    /// Returns the positions of an axis that chases the course as fast as possible.
     fn chased(targets: &[f64], max_deg: f64) -> Vec<f64> {
         let mut place = targets[0];
         let step = |target: &f64| {
@@ -157,7 +157,7 @@ mod tests {
         targets.iter().map(step).collect()
     }
 
-    /// Azimuth and weight of a pass that misses the zenith by `off_deg`, a second apart.
+    /// Returns azimuth and weight of a pass that misses the zenith by `off_deg`, a second apart.
     fn overhead(off_deg: f64) -> (Vec<f64>, Vec<f64>) {
         let along = (-300..=300).map(|second| f64::from(second) * 0.6);
         let place = |along: f64| along.atan2(off_deg).to_degrees();
@@ -187,8 +187,8 @@ mod tests {
 
     #[test]
     fn a_course_that_jumps_back_is_crossed_on_the_way() {
-        // Like an azimuth that changes sides at the zenith: 2 degrees per interval, of which the
-        // axis makes half.
+        // The course turns like an azimuth that changes sides at the zenith: 2 degrees per
+        // interval, of which the axis makes half.
         let targets: Vec<f64> = (-50..50)
             .map(|step| {
                 let side = if step < 0 { 0.0 } else { -180.0 };
@@ -211,7 +211,7 @@ mod tests {
         for max_deg in [2.0, 6.0] {
             let way = weighted(&targets, &weight, max_deg);
             assert!(fastest(&way) <= max_deg + 1e-9);
-            // Half of the turn is done at the zenith.
+            // The axis has completed half of the turn at the zenith.
             assert!(way[300].abs() < max_deg, "{}", way[300]);
             let (best, after) = (
                 cost(&way, &targets, &weight),

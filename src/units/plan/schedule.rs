@@ -1,10 +1,11 @@
-//! The schedule: which antenna takes which pass, and why the other passes are left out.
+//! Schedule: the assignment of passes to antennas, and the reasons why the other passes are left
+//! out.
 //!
-//! [`Reach`] judges what one antenna can take of one pass: where its axes stand, and which seconds
-//! count. `solve` chooses among these takes, and knows only spans, rows and slews. What it
-//! maximises is a row of numbers, one a class: passes that are always taken, then priority 1 to 5.
-//! A class is never given up for those after it. Among equal rows the previous schedule, then
-//! fewer seconds of slew, then earlier passes come first.
+//! [`Reach`] judges the part of one pass that one antenna can take: its axis positions, and the
+//! seconds that count. `solve` chooses among these takes, and knows only spans, rows and slews. It
+//! maximises a row of numbers, one per class: passes that are always taken, then priority 1 to 5. A
+//! class never loses for the sake of later classes. Among equal rows, the previous schedule comes
+//! first, then fewer seconds of slew, then earlier passes.
 
 mod between_passes;
 mod board;
@@ -43,7 +44,7 @@ use solve::{Slews as _, Solution, Take};
 use way::at_ms;
 pub use way::{Impossible, Lost, Verdict, Way};
 
-/// The best schedule.
+/// Returns the best schedule that the solver finds for the request.
 pub fn plan(request: &Request<'_>) -> Schedule {
     let board = Board::new(request);
     board.schedule(&board.solve())
@@ -110,14 +111,15 @@ impl Board<'_> {
         })
     }
 
-    /// Steadiness may have held a class below what is proved to be the best.
+    /// Returns the worth of each class, and whether it is proved. Steadiness may have kept a class
+    /// below its proved best.
     fn worth(&self, entries: &[Entry], solution: &Solution) -> Vec<ClassWorth> {
         let mut is_open = false;
         let with_worth = |class: Class| {
             let own = entries.iter().filter(|entry| entry.class == class);
             let worth = own.map(|entry| entry.worth).sum();
             let bound = solution.bound.number(class.index());
-            // If this class could be better, those after it would change with it and are not
+            // If this class could be better, the later ones would change with it and are not
             // proved.
             is_open |= bound != worth;
             let proof = if is_open { Proof::AtMost(bound) } else { Proof::Best };

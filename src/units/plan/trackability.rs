@@ -1,4 +1,4 @@
-//! How much of a pass an antenna can track.
+//! Trackable part of a pass for an antenna.
 
 mod az_el;
 mod xy;
@@ -11,69 +11,69 @@ use crate::{
     station::Mount,
 };
 
-/// A direction at a time.
+/// Direction at a time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
     pub time: Timestamp,
     pub direction: AzEl,
 }
 
-/// Tolerance in degrees: a pass that begins exactly at the minimum elevation counts as above it.
+/// Tolerance, degrees: a pass that begins exactly at the minimum elevation counts as above it.
 const SAME_DEG: f64 = 0.01;
-/// A loss at least this high is called [`Loss::Overhead`].
+/// Min elevation of a loss of the kind [`Loss::Overhead`], degrees.
 const OVERHEAD_FROM_DEG: f64 = 60.0;
 
-/// Travel and rate of a mount, and the beam that it has to keep on a satellite.
+/// Travel and rate of a mount, and the beam that must contain the satellite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MountLimits {
     pub mount: Mount,
-    /// Maximum rate of an axis, degrees per second.
+    /// Max rate of an axis, degrees per second.
     pub maximum_rate_deg_s: f64,
     /// Half the beam width.
     pub half_beam: Angle,
-    /// `false` for a rotator of azimuth only.
+    /// `false` for a rotator without elevation.
     pub has_elevation: bool,
-    /// The antenna does not point below this elevation.
+    /// Min elevation at which the antenna points.
     pub min_elevation: Angle,
 }
 
-/// How much of a pass an antenna can track.
+/// Trackable part of a pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Trackability {
     Whole,
-    /// All but some seconds.
+    /// Pass with a loss of some seconds.
     Loses {
         /// Time outside the beam, seconds.
         seconds: f64,
-        /// Where the loss begins.
+        /// Cause of the loss at its beginning.
         loss: Loss,
-        /// First and last moment outside the beam; in between it may be inside.
+        /// First and last time outside the beam; in between, the satellite may be inside.
         start: Timestamp,
         end: Timestamp,
     },
     Nothing,
-    /// The pass stays below the minimum elevation of the antenna.
+    /// Pass below the minimum elevation of the antenna.
     TooLow,
 }
 
-/// Where an antenna loses a satellite.
+/// Place or cause of the loss of a satellite.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Loss {
-    /// Near an end of the lower axis of an X/Y mount, at this azimuth.
+    /// Keyhole near an end of the lower axis of an X/Y mount, at this azimuth.
     Keyhole(Angle),
-    /// So high that the azimuth axis would have to turn faster than it can.
+    /// Overhead pass for which the azimuth axis would have to turn faster than possible.
     Overhead,
-    /// At an end of the azimuth axis, which has to slew a whole turn.
+    /// Slew of a whole turn at an end of the azimuth axis.
     Slew,
-    /// Beyond the end of the azimuth travel at this azimuth.
+    /// Direction beyond the end of the azimuth travel at this azimuth.
     BeyondAzimuth(Angle),
-    /// Out of the travel of the elevation axis, or an axis is still on its way.
+    /// Direction out of the travel of the elevation axis, or an axis that is still on its way.
     OutOfReach,
 }
 
 impl Loss {
-    /// Where a mount with an azimuth axis loses the satellite at `samples[index]`, the first that is
-    /// lost. `is_slewing` if the axis slews a whole turn about that time.
+    /// Returns the loss of a mount with an azimuth axis at `samples[index]`, the first lost sample.
+    /// `is_slewing`: the axis slews a whole turn about that time.
     pub(super) fn at_sample(
         mount: Mount,
         samples: &[Sample],
@@ -81,7 +81,7 @@ impl Loss {
         is_slewing: bool,
     ) -> Self {
         let Some(sample) = samples.get(index) else { return Self::OutOfReach };
-        // Beyond the travel no rate of the axis would help.
+        // Beyond the travel, no rate of the axis would help.
         if !mount.reaches(sample.direction) {
             Self::beyond_travel(mount, samples, index)
         } else if is_slewing {
@@ -93,9 +93,9 @@ impl Loss {
         }
     }
 
-    /// Beyond the end of the azimuth travel through which the satellite leaves it before
-    /// `samples[index]` or comes into it afterwards. In the middle of what an axis cannot reach, the
-    /// nearer end says nothing.
+    /// Returns the end of the azimuth travel through which the satellite leaves the travel before
+    /// `samples[index]` or enters it afterwards. In the middle of the unreachable range, the nearer
+    /// end is not meaningful.
     pub(super) fn beyond_travel(mount: Mount, samples: &[Sample], index: usize) -> Self {
         let end = |sample: &Sample| mount.azimuth_end_before(sample.direction);
         let Some((before, from_here)) = samples.split_at_checked(index) else {
@@ -112,8 +112,8 @@ impl Loss {
     }
 }
 
-/// Trackability of the pass along `samples`, which are a few seconds apart, oldest first.
-/// Only the part above the antenna's own minimum elevation is judged; the antenna waits where
+/// Returns the trackability of the pass along `samples`, which are a few seconds apart, oldest
+/// first. Judges only the part above the antenna's own minimum elevation; the antenna waits where
 /// that part begins.
 pub fn trackability(samples: &[Sample], limits: MountLimits) -> Trackability {
     let is_high = |sample: &Sample| {
@@ -150,7 +150,7 @@ struct Outside {
 }
 
 impl Outside {
-    /// Adds the stretch between two times, which lies after those before.
+    /// Adds the stretch between two times, which must follow the previous stretches.
     fn add(&mut self, start: Timestamp, end: Timestamp) {
         self.seconds += seconds_between(start, end);
         self.first = self.first.or(Some(start));

@@ -1,5 +1,5 @@
-//! The far end, a process of its own: standard input is the beat, standard
-//! output the link.
+//! Dead-man child, a separate process: standard input carries the beats, standard output is the
+//! link.
 
 use std::{
     io::{self, Write as _},
@@ -17,27 +17,26 @@ use tokio::signal::unix::{Signal, SignalKind, signal};
 
 use super::{SILENCE, word};
 
-/// STOP is written again after this long.
+/// Interval between two writes of STOP.
 const AGAIN: Duration = Duration::from_millis(200);
-/// For how long STOP is written.
+/// Duration for which the child repeats STOP.
 const INSIST: Duration = Duration::from_secs(2);
 
-/// Watches over one spell of motion. When the beat on standard input stays away
-/// for 400 ms or ends, writes `stop` to standard output at once and every 200 ms
-/// for 2 s, and shuts that connection down.
+/// Watches one motion. Writes STOP if no beat arrives on standard input for 400 ms, or if the input
+/// ends. Repeats `stop` on standard output every 200 ms for 2 s, then shuts that connection down.
 ///
-/// Outlives hang-up, interrupt, termination and the stop of a terminal. Returns
-/// whether it has fired.
+/// Ignores hang-up, interrupt, termination and the stop of a terminal. Returns `true` if it wrote
+/// STOP.
 pub fn watch_over(stop: &[u8]) -> io::Result<bool> {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_io().build()?;
     let _entered = runtime.enter();
-    // A handler replaces the default action for the life of the process.
+    // These handlers replace the default actions until the process ends.
     let _outlived = outlived_signals();
     let input = io::stdin();
     if !beat_ends(input.as_fd()) {
         return Ok(false);
     }
-    // The session must learn of it by its next beat, however late that is.
+    // Close the pipe now so that the session notices at its next beat.
     if let Ok(nothing) = std::fs::File::open("/dev/null") {
         dup2_stdin(nothing).ok();
     }
@@ -52,15 +51,15 @@ fn outlived_signals() -> Vec<Signal> {
         SignalKind::interrupt(),
         SignalKind::terminate(),
         SignalKind::quit(),
-        // STOP to the whole unit of a service manager.
+        // A service manager sends this signal to the whole unit.
         SignalKind::user_defined1(),
         stop_of_terminal,
     ];
-    // One that cannot be had must not keep the others from being outlived.
+    // A signal that cannot be caught must not prevent the handling of the others.
     kinds.into_iter().filter_map(|kind| signal(kind).ok()).collect()
 }
 
-/// Waits for the end of the beat; `false` when nothing is out any more.
+/// Waits for the end of the beats; returns `false` if the motion is over.
 fn beat_ends(input: BorrowedFd<'_>) -> bool {
     let mut bytes = [0; 64];
     let mut until = Instant::now() + SILENCE;
@@ -87,7 +86,7 @@ fn beat_ends(input: BorrowedFd<'_>) -> bool {
     }
 }
 
-/// A little more, so that a poll that ends in time finds the time over.
+/// Converts the remaining time, rounded up so that the time is over when the poll ends.
 fn in_time(left: Duration) -> PollTimeout {
     PollTimeout::try_from(left + Duration::from_millis(1)).unwrap_or(PollTimeout::MAX)
 }
@@ -107,7 +106,7 @@ fn insist(stop: &[u8]) {
                 Ok(count) => rest = rest.get(count..).unwrap_or_default(),
                 Err(error) if error.kind() == io::ErrorKind::WouldBlock => wait_for(&link, next),
                 Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-                // The connection is gone: nothing reaches the unit on it.
+                // The connection is gone: no byte reaches the unit on this link.
                 Err(_) => return,
             }
         }
@@ -116,8 +115,8 @@ fn insist(stop: &[u8]) {
         }
         std::thread::sleep(next.saturating_duration_since(Instant::now()));
     }
-    // A unit that takes one client is free for the next one. A serial port has
-    // no such end.
+    // A unit that accepts one client is then free for the next client. A serial port needs no
+    // shutdown.
     TcpStream::from(link).shutdown(Shutdown::Both).ok();
 }
 

@@ -1,4 +1,4 @@
-//! The near end: starts the child and beats.
+//! Session side of the dead-man: starts the child and sends beats.
 
 use std::{io, path::Path, process::Stdio};
 
@@ -10,8 +10,8 @@ use tokio::{
 use super::{BEAT, SUBCOMMAND, word};
 use crate::{clock::Instant, driver::link::Duplicate};
 
-/// A child that watches. Dropping it without [`Self::disarm`] closes the pipe,
-/// and the child stops the unit.
+/// Running child. Dropping this handle without [`Self::disarm`] closes the pipe, and the child
+/// stops the unit.
 #[derive(Debug)]
 pub(in crate::driver) struct DeadMan {
     beats: pipe::Sender,
@@ -20,8 +20,8 @@ pub(in crate::driver) struct DeadMan {
 }
 
 impl DeadMan {
-    /// Starts `program` as the child. `stop` is STOP as it leaves the last layer
-    /// of the link that `link` duplicates.
+    /// Starts `program` as the child. `stop` contains the STOP bytes on the wire of the link that
+    /// `link` duplicates.
     pub(in crate::driver) fn arm(
         program: &Path,
         link: Duplicate,
@@ -34,7 +34,8 @@ impl DeadMan {
         let child = Command::new(program)
             .arg(SUBCOMMAND)
             .arg(digits)
-            // No display, no terminal, and no part in signals to our group.
+            // The child needs no display and no terminal, and must not receive signals to our
+            // group.
             .env_clear()
             .process_group(0)
             .stdin(Stdio::from(heard.into_blocking_fd()?))
@@ -44,8 +45,7 @@ impl DeadMan {
         Ok(Self { beats, child, last: now })
     }
 
-    /// Tells the child that the session is alive. `false` when the child has
-    /// fired or is gone.
+    /// Sends a beat to the child. Returns `false` if the child has fired or is gone.
     pub(in crate::driver) fn beat(&mut self, now: Instant) -> bool {
         if matches!(self.child.try_wait(), Ok(Some(_))) {
             return false;
@@ -54,20 +54,19 @@ impl DeadMan {
             return true;
         }
         self.last = now;
-        // A full pipe: the child does not read, so it does not watch.
+        // The pipe is full: the child does not read, so it does not watch.
         self.beats.try_write(&[word::BEAT]).is_ok()
     }
 
-    /// When the next beat is due.
+    /// Returns the time of the next beat.
     pub(in crate::driver) fn due(&self) -> Instant {
         self.last + BEAT / 2
     }
 
-    /// Ends the child without a STOP: what was out is proved to be over, or the
-    /// session stops the unit on another link.
+    /// Ends the child without a STOP: the motion is proved over, or the session stops the unit on
+    /// another link.
     pub(in crate::driver) fn disarm(self) {
-        // A child that is gone already needs no word. It is collected by the
-        // runtime.
+        // A child that already ended needs no message. The runtime reaps the child.
         let _ = self.beats.try_write(&[word::END]);
     }
 }

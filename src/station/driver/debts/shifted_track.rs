@@ -1,5 +1,5 @@
-//! Offsets that were written to a unit for a track of its own, and what it held before: kept on
-//! disk until they are taken back, so that a program that breaks off does not lose them.
+//! Offsets that Azel wrote for a unit's own track, and the offsets before them. The record stays on
+//! disk until Azel has restored the offsets, even after a crash.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -11,42 +11,42 @@ use crate::{
     promises::{FileState, PromisedFile},
 };
 
-/// Maximum number of values that a unit may hold from here.
+/// Max number of offset values recorded per unit.
 const MAX_PUT: usize = 64;
 
-/// A unit whose own track was shifted from here.
+/// Unit whose own track Azel shifted.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::driver) struct ShiftedTrack {
-    /// When the first offset was about to be written.
+    /// Time just before the first offset was written.
     pub(in crate::driver) since: Timestamp,
-    /// Offsets that the unit held before, in azimuth and elevation.
+    /// Previous offsets of the unit in azimuth and elevation.
     pub(in crate::driver) before: TrackOffsets,
-    /// Offsets that the unit may hold by now: the last that were read back, and all written since.
+    /// Offsets that the unit may have now: the last values read back, and all values written since.
     pub(in crate::driver) put: Vec<TrackOffsets>,
-    /// The track to which they were added. Earlier versions did not record it.
+    /// Track with the added offsets. Earlier versions did not record the track.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(in crate::driver) track: Option<AddedTo>,
-    /// An earlier run left it so.
+    /// `true` if the record comes from an earlier run.
     #[serde(skip)]
     pub(in crate::driver) is_found: bool,
 }
 
-/// A track of a unit.
+/// Track of a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::driver) struct AddedTo {
     pub(in crate::driver) catalog_number: u32,
-    /// When the unit ends it, by its own clock.
+    /// End of the track by the unit's clock.
     pub(in crate::driver) until: Timestamp,
 }
 
 impl ShiftedTrack {
-    /// As an earlier run left it.
+    /// Marks the record as coming from an earlier run.
     pub(super) fn left((unit, shifted): (Unit, Self)) -> (Unit, Self) {
         (unit, Self { is_found: true, ..shifted })
     }
 
-    /// Returns the part of `held`, the reported offsets, that was added to those before; `None` if
-    /// any component is not from here.
+    /// Returns the part of `held`, the reported offsets, that Azel added to the previous offsets;
+    /// `None` if any component does not come from Azel.
     pub(in crate::driver) fn added(&self, held: TrackOffsets) -> Option<TrackOffsets> {
         let is_ours = [TrackOffsets::azimuth, TrackOffsets::elevation]
             .into_iter()
@@ -54,15 +54,15 @@ impl ShiftedTrack {
         is_ours.then(|| held.less(self.before)).flatten()
     }
 
-    /// Returns `true` if the unit held this component before, or may hold it from here. The
-    /// components of one write may take effect one after the other.
+    /// Returns `true` if this component of `held` is the previous value or a value that Azel wrote.
+    /// The components of one write may take effect one after the other.
     fn may_hold(&self, component: fn(TrackOffsets) -> Angle, held: TrackOffsets) -> bool {
         let mut known = self.put.iter().chain([&self.before]);
         known.any(|known| component(*known) == component(held))
     }
 
-    /// The same where somebody else has set a component that `held` reports: Azel leaves that one
-    /// alone.
+    /// Removes each component that somebody else has set according to `held`, because Azel leaves
+    /// such a component alone. Returns `None` if none remains.
     pub(in crate::driver) fn without_foreign(self, held: TrackOffsets) -> Option<Self> {
         let restored = |component: fn(TrackOffsets) -> Angle| {
             component(if self.may_hold(component, held) { self.before } else { held })
@@ -73,7 +73,7 @@ impl ShiftedTrack {
         Some(Self { before, ..self })
     }
 
-    /// Notes that the unit may hold `offsets` from here on.
+    /// Records that the unit may have `offsets` from now on.
     pub(in crate::driver) fn may_be(&mut self, offsets: TrackOffsets) {
         self.put.retain(|known| *known != offsets);
         if self.put.len() >= MAX_PUT {
@@ -88,13 +88,13 @@ impl Debts {
         self.ledger().shifted.get(unit).cloned()
     }
 
-    /// The units that may still hold offsets of a track.
+    /// Returns the units that may still have offsets of a track.
     pub fn with_offsets(&self) -> Vec<Unit> {
         self.ledger().shifted.keys().cloned().collect()
     }
 
-    /// Requests a file that says what was written to the unit, or is about to be; `None` once it is
-    /// taken back. A worker writes it.
+    /// Requests a file with the offsets that Azel wrote or is about to write to the unit; `None`
+    /// after they are restored. A worker writes the file.
     pub(in crate::driver) fn set_shifted(&self, unit: &Unit, shifted: Option<ShiftedTrack>) {
         let mut ledger = self.ledger();
         let state = match &shifted {
@@ -113,20 +113,20 @@ impl Debts {
         }
     }
 
-    /// Progress of the file of offsets.
+    /// Returns the progress of the offsets file.
     pub(in crate::driver) fn shifted_kept(&self, unit: &Unit) -> PromisedFile {
         self.path(unit, OFFSETS).map_or(PromisedFile::OnDisk, |path| self.promises.promised(&path))
     }
 
-    /// Looks again for offsets that an earlier run left, since another Azel may have driven the
-    /// unit in the meantime. Does not replace the record of offsets that this run wrote. Blocks.
+    /// Searches again for offsets of an earlier run, because another Azel may have driven the unit
+    /// since. Keeps the record of offsets that this run wrote. Blocks.
     pub(in crate::driver) fn find_shifted(&self, unit: &Unit) {
         let Some(path) = self.path(unit, OFFSETS) else { return };
         let found =
             match self.promises.read(&path).map(|text| text.map(|text| toml::from_str(&text))) {
                 Ok(None) => None,
                 Ok(Some(Ok(Record { unit, debt }))) => Some(ShiftedTrack::left((unit, debt)).1),
-                // A file that cannot be read says nothing new.
+                // An unreadable file contains no new information.
                 Ok(Some(Err(_))) | Err(_) => return,
             };
         let mut ledger = self.ledger();
@@ -188,7 +188,7 @@ mod tests {
     #[test]
     fn each_component_is_taken_back_by_itself() {
         let shifted = put(both(0.25, -0.1), &[both(0.25, -0.1), both(0.45, 0.0)]);
-        // The azimuth is restored, and the elevation is not yet.
+        // The unit has restored the azimuth but not yet the elevation.
         assert_eq!(shifted.added(both(0.25, 0.0)), Some(both(0.0, 0.1)));
         assert_eq!(shifted.clone().without_foreign(both(0.25, 0.0)), Some(shifted.clone()));
         // Somebody else has set the azimuth.

@@ -43,7 +43,7 @@ fn a_mark_outlives_the_program_until_it_is_taken_away() {
     debts().unmark(&one, 1);
 }
 
-/// Wherever a program is killed, the next start finds the promise or its absence whole.
+/// At any kill time, the next start finds either the whole promise or none.
 #[test]
 fn killed_at_any_step_of_a_write_or_removal_the_next_start_knows_old_or_new() {
     let one = unit("10.0.0.5:4001");
@@ -70,14 +70,14 @@ fn killed_at_any_step_of_a_write_or_removal_the_next_start_knows_old_or_new() {
     assert!(is_left(), "a newer one is half written");
     fs::remove_file(&file).unwrap();
     assert!(!is_left(), "after the removal");
-    // The files of the other promises are told apart by their names alone.
+    // Only the names distinguish the files of the other promises.
     let debts = || Debts::marked_in(Some(folder.path().to_owned()));
     fs::write(&temporary, text).unwrap();
     debts().mark_auto_track_off(&one, since()).unwrap();
     assert_eq!((debts().with_auto_track(), debts().left_moving()), (vec![one], Vec::new()));
 }
 
-/// Files as version f93e9bd5 wrote them.
+/// The files have the format of version f93e9bd5.
 #[test]
 fn files_of_an_earlier_version_mean_the_same() {
     let folder = tempfile::tempdir().unwrap();
@@ -117,7 +117,7 @@ fn files_of_an_earlier_version_mean_the_same() {
     assert_eq!(names(folder.path()), [""; 0]);
 }
 
-/// An earlier version reads what this one writes, too.
+/// An earlier version must be able to read the files of this version.
 #[test]
 fn a_mark_has_the_form_of_earlier_versions() {
     let folder = tempfile::tempdir().unwrap();
@@ -240,7 +240,7 @@ fn that_a_unit_is_not_known_to_stand_outlives_its_session() {
     assert_eq!(debts.unproved_since(&unit), None);
 }
 
-/// Returns `true` if a permit waits.
+/// Returns `true` if a permit is available.
 fn is_notified(notify: &Notify) -> bool {
     use std::{
         future::Future as _,

@@ -1,5 +1,5 @@
 //! Detours of program track round barriers. A search takes up to a tenth of a second, so a worker
-//! makes it, and there is no route until its answer is there.
+//! does it. Until its answer arrives, the track has no route.
 
 use std::time::Duration;
 
@@ -12,19 +12,19 @@ use crate::{
     },
 };
 
-/// Distance between two places of a detour that are tried as the next position, degrees.
+/// Distance between two candidate positions on a detour, degrees.
 const STEP_DEG: f64 = 4.0;
-/// A detour leads to its end for this long. The antenna moves on its way meanwhile, and so does the
-/// Sun, so each position is checked again before it is sent.
+/// Time for which a detour is valid. The antenna and the Sun move during this time, so Azel checks
+/// each position again before sending it.
 const FRESH: Duration = Duration::from_secs(2);
-/// A detour leads to any end that is at most this far from its own on each axis, degrees.
+/// Max distance of a new end from the detour's end on each axis, degrees.
 const SAME_END_DEG: f64 = 2.0;
 
-/// Why a motion has no route.
+/// Reason why a motion has no route.
 #[derive(Debug)]
 pub(in crate::driver) enum NoRoute {
     Refused(Refusal),
-    /// Nobody has looked for a detour yet.
+    /// Missing search: a worker must answer this question first.
     Open(Box<DetourQuestion>),
 }
 
@@ -43,7 +43,7 @@ impl NoRoute {
     }
 }
 
-/// The question for a detour between two positions, degrees as the mount counts.
+/// Request for a detour between two positions, degrees as the mount counts.
 #[derive(Debug, Clone)]
 pub(in crate::driver) struct DetourQuestion {
     bounds: Bounds,
@@ -53,7 +53,7 @@ pub(in crate::driver) struct DetourQuestion {
     asked: Moment,
 }
 
-/// The places of a detour, without its start; none where there is no detour.
+/// Places of a detour without its start; empty if no detour exists.
 #[derive(Debug)]
 pub(in crate::driver) struct Detour {
     question: DetourQuestion,
@@ -61,7 +61,7 @@ pub(in crate::driver) struct Detour {
 }
 
 impl DetourQuestion {
-    /// Looks for the detour; takes up to a tenth of a second.
+    /// Searches for the detour; takes up to a tenth of a second.
     pub(in crate::driver) fn search(self) -> Detour {
         let Self { from_deg, to_deg, asked, .. } = self;
         let now = self.bounds.at_time(asked.utc);
@@ -70,25 +70,25 @@ impl DetourQuestion {
         Detour { question: self, places_deg }
     }
 
-    /// Returns `true` if the answer to this question holds for `other`, asked later.
+    /// Returns `true` if the answer to this question also answers `other`, a later question.
     fn covers(&self, other: &Self) -> bool {
         let mut ends = self.to_deg.into_iter().zip(other.to_deg);
         other.asked.steady.saturating_duration_since(self.asked.steady) < FRESH
             && ends.all(|(one_deg, other_deg)| (one_deg - other_deg).abs() <= SAME_END_DEG)
-            // A keep-out that was drawn since then could lie across the detour.
+            // A new keep-out could lie across the detour.
             && self.bounds == other.bounds
     }
 }
 
 impl Gate {
-    /// The places of the detour between two positions, as far as it is known.
+    /// Returns the known places of the detour between two positions.
     pub(super) fn detour_places_deg(
         &self,
         from_deg: [f64; 2],
         to_deg: [f64; 2],
         now: Moment,
     ) -> Result<&[[f64; 2]], NoRoute> {
-        // Only a track follows a detour, and an agreement may let it lead to the Sun.
+        // Only a track follows a detour, and a permission may let it lead to the Sun.
         let bounds = self.bounds_in(Intent::Track).clone();
         let limits = self.axis_limits();
         let question = DetourQuestion { bounds, limits, from_deg, to_deg, asked: now };

@@ -1,4 +1,4 @@
-//! Feeds the watch with the motions that pass the gate and with the readings of the unit.
+//! Input of the watch: motions that pass the gate, and readings of the unit.
 
 use std::time::Duration;
 
@@ -13,16 +13,16 @@ use crate::{
     driver::motion_watch::{AxisFigures, AxisReading, Foreign, Lead, MotionWatch},
 };
 
-/// Where the unit's azimuth and elevation and the angles of an X/Y mount differ by more, degrees, the
-/// geometry of the station does not describe the unit.
+/// Max difference between the unit's direction and the direction of its X/Y angles, degrees. Beyond
+/// it, the geometry of the station does not describe the unit.
 const FITS_DEG: f64 = 1.0;
-/// The axes of an X/Y mount turn by many times as much as the direction near the ends of the lower
-/// axis, degrees from the zenith.
+/// Angle from the zenith beyond which the axes of an X/Y mount turn much faster than the direction,
+/// degrees. The ends of the lower axis are near.
 const STEEP_DEG: f64 = 80.0;
-/// A reading so near to north may be on either side of it, degrees.
+/// Distance from north within which a reading may be on either side of north, degrees.
 const NEAR_NORTH_DEG: f64 = 3.0;
 const TURN_DEG: f64 = 360.0;
-/// A unit applies a setting within this time.
+/// Max time in which a unit applies a setting.
 const APPLIES_WITHIN: Duration = Duration::from_mins(1);
 
 pub(super) fn watch(
@@ -32,7 +32,7 @@ pub(super) fn watch(
     lessons: &[AxisLessons; 2],
 ) -> MotionWatch {
     let is_azel = matches!(mount, Mount::AzEl { .. });
-    // The watch still trusts angles of an X/Y mount that the geometry misses by this much.
+    // The watch still trusts the angles of an X/Y mount within this error of the geometry.
     let slack_deg = if is_azel { 0.0 } else { FITS_DEG };
     let figures = |wraps| AxisFigures {
         resolution_deg: can.standstill.resolution_deg,
@@ -44,7 +44,7 @@ pub(super) fn watch(
 }
 
 impl Gate {
-    /// A motion goes out.
+    /// Informs the watch about an outgoing motion.
     pub(super) fn watch_motion(&mut self, motion: Motion, now: Moment) {
         let leads = match motion {
             Motion::Jog { x_deg_s, y_deg_s } => [x_deg_s, y_deg_s]
@@ -53,7 +53,7 @@ impl Gate {
                 [x_deg, y_deg].map(|by_deg| (by_deg != 0.0).then_some(Lead::By(by_deg)))
             }
             Motion::Position { .. } => self.leads_of_position(motion, now),
-            // The unit's own words tell whether its program moves it.
+            // The unit reports when its program moves the axes.
             Motion::StartProgram | Motion::EnableAuto => [None; 2],
         };
         self.watch.commanded(leads, now.steady);
@@ -78,8 +78,8 @@ impl Gate {
         [sends_first.then_some(first), sends_second.then_some(second)]
     }
 
-    /// The ways of the azimuth axis to an angle, degrees as the mount counts: as it counts, over
-    /// north, or either.
+    /// Returns the possible paths of the azimuth axis to an angle, degrees as the mount counts:
+    /// direct, over north, or either.
     fn ways_to(&self, deg: f64, now: Moment) -> Lead {
         let at_deg = self.state().measured.and_then(|measured| measured.axes[0].angle_deg);
         let is_azel = matches!(self.mount, Mount::AzEl { .. });
@@ -100,44 +100,44 @@ impl Gate {
         }
     }
 
-    /// An action of the make that moves something goes out.
+    /// Informs the watch about an outgoing action of the make that moves an axis.
     pub(super) fn watch_act(&mut self, act: &Act, now: Moment) {
         let leads = match self.controller.lead_of(act) {
             panel::Lead::Nowhere => [None; 2],
             panel::Lead::To(to_deg) => to_deg.map(|deg| deg.map(Lead::To)),
-            // Wherever the action leads, Azel sent it, so its motion accuses nobody.
+            // Azel sent the action, so its motion is no evidence against another operator.
             panel::Lead::Unseen(_) | panel::Lead::Unknown(_) => [Some(Lead::Anywhere); 2],
         };
         self.watch.commanded(leads, now.steady);
     }
 
-    /// The unit accepted the oldest motion that was not answered.
+    /// Records that the unit accepted the oldest unanswered motion.
     pub(in crate::driver) fn motion_accepted(&mut self, now: Moment) {
         self.watch.accepted(now.steady);
     }
 
-    /// The unit refused the oldest motion that was not answered, or nobody knows what became of it.
+    /// Records that the unit refused the oldest unanswered motion, or that its outcome is unknown.
     pub(in crate::driver) fn motion_not_accepted(&mut self) {
         self.watch.not_accepted();
     }
 
-    /// No motion that is out will be answered.
+    /// Records that the unit will answer none of the sent motions.
     pub(in crate::driver) fn motions_unanswered(&mut self) {
         self.watch.not_answered();
     }
 
-    /// The axes were proved to stand after a halt.
+    /// Records proved standstill of the axes after a halt.
     pub(in crate::driver) fn motions_over(&mut self, now: Moment) {
         self.watch.proved_still(now.steady);
     }
 
-    /// Returns the measured sway of the standing axes, degrees, at most 1; `None` until all have been
-    /// measured.
+    /// Returns the measured sway of the standing axes, degrees, at most 1; `None` until all have
+    /// been measured.
     pub(in crate::driver) fn measured_sway_deg(&self) -> Option<f64> {
         self.watch.measured_sway_deg(self.variant.capabilities.axis_count())
     }
 
-    /// Returns what the watch has learned of each axis.
+    /// Returns the lessons of the watch about each axis.
     pub(in crate::driver) fn lessons(&self) -> [AxisLessons; 2] {
         self.watch.lessons()
     }
@@ -146,31 +146,31 @@ impl Gate {
         self.watch.forget_lessons();
     }
 
-    /// Returns `true` if commands lead the axes to where they are read now, after an outage. Call it before
-    /// [`Self::look_for_hands`].
+    /// Returns `true` if commands explain the current axis readings after an outage. Call this
+    /// before [`Self::look_for_hands`].
     pub(in crate::driver) fn explains_position(&self) -> bool {
         let coasts_deg = self.limits.maximum_rate_deg_s * self.overrun_s;
         self.readings().is_some_and(|readings| self.watch.explains(readings, coasts_deg))
     }
 
-    /// The axes that are outside their interval although foreign motion is not yet proved.
+    /// Returns the axes that are outside their interval although foreign motion is not yet proved.
     pub(in crate::driver) fn suspects(&self, now: Moment) -> [bool; 2] {
         self.watch.suspects(now.steady)
     }
 
-    /// Nobody has watched the axes for a while.
+    /// Restarts the watch after a time without readings.
     pub(in crate::driver) fn watch_anew(&mut self) {
         self.watch.start_anew();
     }
 
-    /// A setting is written that may change the meaning of the readings.
+    /// Informs the watch about a written setting that may change the meaning of the readings.
     pub(in crate::driver) fn readings_change(&mut self, now: Moment) {
         self.watch.opened(now.steady + APPLIES_WITHIN);
     }
 
-    /// Looks at the last position. Returns an axis that somebody else has moved.
+    /// Checks the last position. Returns an axis that somebody else has moved.
     pub(in crate::driver) fn look_for_hands(&mut self, now: Moment) -> Option<Foreign> {
-        // The unit's program leads the axes where no command of Azel does.
+        // The unit's program moves the axes without commands of Azel.
         if self.state().program.is_some_and(|program| program.enabled) {
             self.watch.opened(now.steady);
         }
@@ -178,7 +178,7 @@ impl Gate {
         if self.looked.replace(measured.received) == Some(measured.received) {
             return None;
         }
-        // Then commands are not known in degrees of the axes, and angles accuse nobody.
+        // Azel then does not know the commands in axis degrees, so angles prove no foreign motion.
         if !self.geometry_fits(&measured) {
             self.watch.opened(now.steady);
         }
@@ -189,7 +189,7 @@ impl Gate {
         self.watch.take(readings)
     }
 
-    /// The last position by axis.
+    /// Returns the last position of each axis.
     fn readings(&self) -> Option<[Option<AxisReading>; 2]> {
         let measured = self.state().measured?;
         let reading = |axis: Axis| {
@@ -202,8 +202,8 @@ impl Gate {
         Some([first, second.filter(|_| self.variant.capabilities.has_elevation())])
     }
 
-    /// Returns `true` if the mount of the station turns these angles into the direction that the unit
-    /// reports.
+    /// Returns `true` if the mount of the station turns these angles into the direction that the
+    /// unit reports.
     fn geometry_fits(&self, measured: &Measured) -> bool {
         if matches!(self.mount, Mount::AzEl { .. }) {
             return true;

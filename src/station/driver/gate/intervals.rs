@@ -1,4 +1,4 @@
-//! Where each axis may be: an interval of angles, because an angle may be missing.
+//! Interval of possible angles of each axis, because a unit may not report an angle.
 
 use std::time::Duration;
 
@@ -9,19 +9,19 @@ use crate::{
     plan::Sweep,
 };
 
-/// Longest gap that the last angle bridges: the maximum age of a position for a jog.
+/// Max age of an angle that replaces a missing one: the max age of a position for a jog.
 const MAX_ANGLE_GAP: Duration = Duration::from_secs(1);
-/// A limit switch may stand this far from the end of the travel in the settings, degrees.
+/// Max distance of a limit switch from the end of the travel in the settings, degrees.
 const AT_LIMIT_DEG: f64 = 5.0;
-/// Every direction at one azimuth, for an antenna that does not turn in elevation, degrees.
+/// Range of all elevations at one azimuth, for an antenna that does not turn in elevation, degrees.
 const ALL_ELEVATIONS_DEG: (f64, f64) = (0.0, 90.0);
 
-/// Where one axis may be, degrees as the mount counts.
+/// Interval of possible angles of one axis, degrees as the mount counts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::driver) struct Interval {
     pub(in crate::driver) from_deg: f64,
     pub(in crate::driver) to_deg: f64,
-    /// The unit reports the angle, or the limit that the axis stands at.
+    /// `true` if the unit reports the angle or the limit switch of the axis.
     pub(in crate::driver) is_known: bool,
 }
 
@@ -30,7 +30,7 @@ impl Interval {
         Self { from_deg: deg, to_deg: deg, is_known: true }
     }
 
-    /// The range `ahead` as far as this axis can get there.
+    /// Restricts the range `ahead` to the angles that this axis can reach.
     fn within(self, (from_deg, to_deg): (f64, f64), travel_deg: (f64, f64)) -> (f64, f64) {
         if self.is_known {
             return (from_deg, to_deg);
@@ -48,7 +48,7 @@ impl Interval {
         travel_deg: (f64, f64),
     ) -> Self {
         let turned_deg = rate_deg_s * elapsed.as_secs_f64();
-        // An axis beyond its travel may still be there.
+        // An axis that was beyond its travel may still be beyond it.
         let (lowest_deg, highest_deg) = (travel_deg.0.min(last.deg), travel_deg.1.max(last.deg));
         Self {
             from_deg: (last.deg - turned_deg).max(lowest_deg),
@@ -58,7 +58,7 @@ impl Interval {
     }
 }
 
-/// Where both axes may be.
+/// Possible angles of both axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::driver) struct Intervals(pub(in crate::driver) [Interval; 2]);
 
@@ -67,8 +67,8 @@ impl Intervals {
         Sweep(self.0.map(|axis| (axis.from_deg, axis.to_deg)))
     }
 
-    /// Where the axes may be after turning by `ahead_deg`. One whose angle is not known stays within
-    /// its travel.
+    /// Returns the possible angles of the axes after turning by `ahead_deg`. An axis without a
+    /// known angle stays within its travel.
     pub(super) fn after(self, ahead_deg: [f64; 2], travel_deg: [(f64, f64); 2]) -> Sweep {
         let Sweep(ahead) = self.sweep().turned(ahead_deg);
         let [first, second] = self.0;
@@ -77,12 +77,12 @@ impl Intervals {
         Sweep([first.within(first_ahead, first_travel), second.within(second_ahead, second_travel)])
     }
 
-    /// The first axis whose angle is not known.
+    /// Returns the first axis without a known angle.
     pub(in crate::driver) fn unknown(self) -> Option<usize> {
         self.0.iter().position(|axis| !axis.is_known)
     }
 
-    /// The angles of both axes; `None` where one is not known.
+    /// Returns the angles of both axes; `None` if either angle is unknown.
     pub(in crate::driver) fn angles_deg(self) -> Option<[f64; 2]> {
         self.unknown().is_none().then(|| self.0.map(|axis| axis.from_deg))
     }
@@ -92,11 +92,11 @@ impl Intervals {
 struct LastAngle {
     deg: f64,
     asked: Instant,
-    /// When a limit switch was first reported after it.
+    /// Time of the first limit switch report after the angle.
     at_limit: Option<Instant>,
 }
 
-/// The last angle that each axis reported.
+/// Last reported angle of each axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct LastAngles([Option<LastAngle>; 2]);
 
@@ -108,8 +108,8 @@ impl LastAngles {
                 *last = Some(LastAngle { deg, asked, at_limit: None });
             } else if let Some(last) = last.as_mut().filter(|_| axis.plus_limit != axis.minus_limit)
             {
-                // The axis had reached the switch by then: later readings give it no more time to
-                // get there.
+                // The axis had already reached the switch: later readings do not extend its travel
+                // time.
                 last.at_limit.get_or_insert(asked);
             }
         }
@@ -117,20 +117,20 @@ impl LastAngles {
 }
 
 impl Gate {
-    /// Remembers the angles of the present position.
+    /// Stores the angles of the current position.
     pub(in crate::driver) fn remember_angles(&mut self) {
         if let Some(measured) = self.controller.state().measured {
             self.last_angles.take(&measured);
         }
     }
 
-    /// Forgets the angles: without a link anybody may turn the axes, and the steady clock stands while
-    /// the computer sleeps.
+    /// Forgets the angles: without a link, anybody may turn the axes, and the steady clock pauses
+    /// while the computer sleeps.
     pub(in crate::driver) fn forget_angles(&mut self) {
         self.last_angles = LastAngles::default();
     }
 
-    /// Where the axes were at the last position; `None` before the first one.
+    /// Returns the intervals of the axes at the last position; `None` before the first position.
     pub(in crate::driver) fn intervals(&self) -> Option<Intervals> {
         let measured = self.state().measured?;
         let [first, second] = measured.axes;
@@ -146,18 +146,19 @@ impl Gate {
             if self.variant.capabilities.has_elevation() {
                 interval(second, second_travel_deg, second_last)
             } else {
-                // A keep-out applies to an azimuth alone at any elevation.
+                // A keep-out with an azimuth range applies at any elevation.
                 Interval { from_deg, to_deg, is_known: true }
             },
         ]))
     }
 
-    /// Request time of the oldest angle in use.
+    /// Returns the request time of the oldest angle in use.
     pub(super) fn angles_asked(&self) -> Option<Instant> {
         let measured = self.state().measured?;
         let count = self.variant.capabilities.axis_count();
         let axes = measured.axes.into_iter().zip(self.last_angles.0).take(count);
-        // A bridged angle is older than its position. A motion must be judged from the older one.
+        // A substitute angle is older than its position. Azel must judge a motion from the older
+        // time.
         let bridged =
             axes.filter(|(axis, _)| angle_deg(*axis).is_none()).filter_map(|(_, last)| {
                 last.map(|last| last.asked).filter(|asked| is_bridged(*asked, measured.requested))
@@ -166,7 +167,7 @@ impl Gate {
     }
 }
 
-/// `asked`: when the reading of the axis was asked for.
+/// Returns the interval of an axis. `asked` is the request time of its reading.
 fn interval(
     axis: Axis,
     travel_deg: (f64, f64),
@@ -181,7 +182,7 @@ fn interval(
         // An RC2000C reports no angle of an axis at its limit switch.
         (true, false, last) => at_limit(travel_deg.0, last, asked, rate_deg_s),
         (false, true, last) => at_limit(travel_deg.1, last, asked, rate_deg_s),
-        // Both switches at once contradict each other, so neither places the axis.
+        // Two active switches contradict each other, so neither locates the axis.
         (_, _, Some(last)) if is_bridged(last.asked, asked) => Interval::at(last.deg),
         (_, _, Some(last)) => {
             let elapsed = asked.saturating_duration_since(last.asked);
@@ -194,8 +195,8 @@ fn interval(
     }
 }
 
-/// Interval of an axis at the limit switch at an end of its travel. If the axis cannot have got there
-/// since its last angle, the switch stands elsewhere: somewhere between the two.
+/// Returns the interval of an axis at the limit switch at an end of its travel. If the axis cannot
+/// have reached that end since its last angle, the interval covers all angles between the two.
 fn at_limit(end_deg: f64, last: Option<LastAngle>, asked: Instant, rate_deg_s: f64) -> Interval {
     let Some(last) = last else { return Interval::at(end_deg) };
     let elapsed = last.at_limit.unwrap_or(asked).saturating_duration_since(last.asked);
@@ -223,8 +224,8 @@ mod tests {
         Axis { angle_deg, motion: AxisMotion::Still, drive: Drive::Off, plus_limit, minus_limit }
     }
 
-    /// The interval, in degrees, of an axis that travels from -5 to 100 degrees at up to 2 degrees
-    /// a second and stood at 10 degrees `seconds` ago.
+    /// Returns the interval, in degrees, of an axis with a travel from -5 to 100 degrees and a rate
+    /// up to 2 degrees a second. The axis stood at 10 degrees `seconds` ago.
     fn after(seconds: u64, axis: Axis) -> (f64, f64, bool) {
         let asked = Instant::now();
         let now = asked + Duration::from_secs(seconds);

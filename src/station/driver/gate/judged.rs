@@ -1,5 +1,5 @@
-//! Judgements of the paths of units that track by themselves. Each takes up to a second, so a worker
-//! makes them, and the gate refuses what has not been judged yet.
+//! Judgements of the paths of units that track on their own. A judgement takes up to a second, so a
+//! worker computes it. The gate refuses a path without a judgement.
 
 use std::sync::Arc;
 
@@ -13,14 +13,14 @@ use crate::{
     },
 };
 
-/// A change of the unit's clock by less does not change where it points on its way, and hardly
-/// where the Sun is then, seconds.
+/// Max change of the unit's clock that keeps a judgement valid, seconds. Such a change barely
+/// affects the distance to the Sun.
 const SAME_CLOCK_S: f64 = 10.0;
-/// Number of judgements that are kept: those of a pass, and of its next offsets by the axes and on
-/// the sky.
+/// Max number of stored judgements: for a pass, and for its next offsets by the axes and on the
+/// sky.
 const MAX_KEPT: usize = 6;
 
-/// A path to be judged: that of a unit with the report `unit` on a pass, within these bounds.
+/// Request to judge the path of a unit with the report `unit` on a pass, within these bounds.
 #[derive(Debug, Clone)]
 pub(in crate::driver) struct PathQuestion {
     judge: Arc<Judge>,
@@ -29,12 +29,13 @@ pub(in crate::driver) struct PathQuestion {
 }
 
 impl PathQuestion {
-    /// Walks the whole path; takes up to a second.
+    /// Checks the whole path; takes up to a second.
     pub(in crate::driver) fn judge(&self) -> Result<(), NotClear> {
         self.judge.is_clear(&self.unit, &self.bounds)
     }
 
-    /// Returns `true` if a judgement of this path holds for `other`, which may begin later on it.
+    /// Returns `true` if a judgement of this path applies to `other`, which may begin later on the
+    /// path.
     fn covers(&self, other: &Self) -> bool {
         let (mine, others) = (self.judge.pass(), other.judge.pass());
         let is_part = Arc::ptr_eq(&self.judge, &other.judge)
@@ -55,7 +56,7 @@ impl PathQuestion {
     }
 }
 
-/// The newest judgements.
+/// Newest judgements.
 #[derive(Debug, Default)]
 pub(super) struct Judged(Vec<(PathQuestion, Result<(), NotClear>)>);
 
@@ -65,7 +66,8 @@ impl Gate {
         PathQuestion { judge, unit, bounds }
     }
 
-    /// Those of the paths of `judge` by these reports that have not been judged yet.
+    /// Returns the questions for the paths of `judge` with these reports that have no judgement
+    /// yet.
     pub(in crate::driver) fn open_questions(
         &self,
         judge: &Arc<Judge>,
@@ -81,7 +83,7 @@ impl Gate {
     ) {
         let Judged(kept) = &mut self.judged;
         kept.extend(judgements);
-        // A unit that keeps reporting something else must not fill the memory.
+        // A unit whose reports keep changing must not fill the memory.
         kept.drain(..kept.len().saturating_sub(MAX_KEPT));
     }
 
@@ -91,13 +93,13 @@ impl Gate {
         fitting.map(|(_, verdict)| verdict)
     }
 
-    /// The judgement of a whole path of the unit; an error also if there is none yet.
+    /// Returns the judgement of a whole path of the unit; an error if it is missing.
     pub(super) fn whole_path_is_clear(
         &self,
         judge: &Arc<Judge>,
         unit: &OnBoard,
     ) -> Result<(), Refusal> {
-        // The unit may have reported something else since: a path without a verdict is not clear.
+        // The unit's report may have changed since then: a path without a verdict is not clear.
         let verdict = self.verdict(&self.question(judge, unit)).ok_or(Refusal::BeingJudged)?;
         Ok(verdict.clone()?)
     }

@@ -1,4 +1,4 @@
-//! Judges the offsets of a program track.
+//! Judgement of the offsets of a program track.
 
 use glam::DQuat;
 use jiff::Timestamp;
@@ -12,31 +12,32 @@ use crate::{
     station::Mount,
 };
 
-/// Where a program track points with some offsets at one time.
+/// Directions of a program track with some offsets at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::driver) struct Demand {
     pub(in crate::driver) at: Timestamp,
-    /// By the axes.
+    /// Direction of the axes with all offsets.
     pub(in crate::driver) axes: AzEl,
-    /// On the sky, if the offsets of the axes and the pointing model make up for errors of the mount.
+    /// Direction on the sky, if the axis offsets and the pointing model correct errors of the
+    /// mount.
     pub(in crate::driver) sky: AzEl,
-    /// By the axes, with an offset of the time alone.
+    /// Direction of the axes with only the time offset.
     pub(in crate::driver) plain: AzEl,
 }
 
 impl Gate {
-    /// From where the pointing model has the beam of an antenna that tracks to where it is on the
-    /// sky, if offsets of its axes are on.
+    /// Returns the rotation from the modelled beam direction of a tracking antenna to the true one
+    /// on the sky, if axis offsets apply.
     pub(in crate::driver) fn to_sky(&self) -> Option<DQuat> {
         self.to_sky
     }
 
-    /// [`Self::to_sky`] of a motion with this intent: only a track has offsets.
+    /// Returns [`Self::to_sky`] for a motion with this intent: only a track has offsets.
     pub(super) fn to_sky_in(&self, intent: Intent) -> Option<DQuat> {
         self.to_sky.filter(|_| intent == Intent::Track)
     }
 
-    /// Returns `true` if the antenna can point there.
+    /// Returns `true` if the antenna can point in this direction.
     pub(in crate::driver) fn reaches(&self, direction: AzEl, now: Moment) -> bool {
         let AzEl { azimuth, elevation } = direction;
         let to = Motion::Position { azimuth: Some(azimuth), elevation: Some(elevation) };
@@ -48,15 +49,15 @@ impl Gate {
         self.to_sky = to_sky;
     }
 
-    /// Checks where offsets would lead a program track: a plan keeps to the bounds and waits at
-    /// their edge, which is not what a step across it asks for.
+    /// Checks the target of a program track with new offsets. A plan waits at the edge of the
+    /// bounds, so an offset step across the edge must fail here.
     pub(in crate::driver) fn demand_is_clear(
         &self,
         demand: Demand,
         now: Moment,
     ) -> Result<(), Refusal> {
         let Demand { at, axes, sky, plain } = demand;
-        // The demand names both directions.
+        // The demand contains both directions.
         let bounds = self.bounds_in(Intent::Track).at_time(at).without_model();
         for direction in [axes, sky] {
             if let Some(barrier) = bounds.forbids(direction) {
@@ -71,7 +72,7 @@ impl Gate {
             return Err(Refusal::Elevation { asked_deg: axes.elevation_deg(), lowest_deg });
         }
         let Mount::AzEl { elevation_from_deg, .. } = self.mount else {
-            // The axes wait at the minimum elevation, wherever a pass begins.
+            // The axes wait at the minimum elevation if a pass begins below it.
             let elevation = Angle::from_degrees(axes.elevation_deg().max(lowest_deg));
             let to = Motion::Position { azimuth: Some(axes.azimuth), elevation: Some(elevation) };
             return rules::within_reach(&to, &self.situation(Intent::Track, false, now));

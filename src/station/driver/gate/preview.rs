@@ -1,4 +1,4 @@
-//! Judges the way to a direction before anybody asks for it.
+//! Advance judgement of the path to a direction.
 
 use super::{Gate, Moment, Motion, NoRoute};
 use crate::{
@@ -6,11 +6,11 @@ use crate::{
     device::Pointing,
 };
 
-/// Distance between two points of a way, degrees of the axis that turns further.
+/// Distance between two points of a path, degrees of the axis that turns further.
 const STEP_DEG: f64 = 2.0;
 
 impl Gate {
-    /// The way that a motion to `to` would take now, or the reason to refuse it.
+    /// Returns the path of a motion to `to` from the current position, or the reason to refuse it.
     pub(in crate::driver) fn way_to(&self, to: Pointing, now: Moment) -> Result<Way, Refusal> {
         let Pointing { azimuth, elevation } = to;
         let motion = self.nearest(Motion::Position { azimuth, elevation })?;
@@ -32,7 +32,7 @@ impl Gate {
         Ok(Way { path, arrives_s: Some(arrives_s), is_round_a_corner })
     }
 
-    /// For a rotator whose azimuth alone is known.
+    /// Returns the duration for a rotator with only a known azimuth, seconds.
     fn seconds_of_one_axis(&self, motion: Motion) -> Option<f64> {
         let Motion::Position { azimuth, .. } = self.controller.as_sent(motion) else { return None };
         let at_deg = self.state().measured?.axes[0].angle_deg?;
@@ -42,11 +42,11 @@ impl Gate {
     }
 }
 
-/// Positions of two axes that start together, at one rate.
+/// Yields positions of two axes that start together and turn at one rate.
 fn turning(from_deg: [f64; 2], to_deg: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
     let [first, second] = [to_deg[0] - from_deg[0], to_deg[1] - from_deg[1]];
     let whole_deg = first.abs().max(second.abs());
-    // A constant bounds the points, because the driver's thread works them out.
+    // A constant limits the points, because the driver thread computes them.
     let parts = (whole_deg / STEP_DEG).ceil().clamp(1.0, 1000.0) as u32;
     (0..=parts).map(move |part| {
         let turned_deg = whole_deg * f64::from(part) / f64::from(parts);

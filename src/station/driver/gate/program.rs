@@ -1,4 +1,4 @@
-//! Checks a pass before a unit that tracks on its own starts on it.
+//! Check of a pass before a unit that tracks on its own starts it.
 
 use std::sync::Arc;
 
@@ -14,28 +14,28 @@ use crate::{
 /// Pass that a unit would track on its own.
 #[derive(Debug, Clone)]
 pub(in crate::driver) enum NextPass {
-    /// Not read yet.
+    /// Unread state of the unit.
     Unread,
-    /// Nothing: it holds no satellite, or its window is over.
+    /// No pass: the unit has no satellite, or its window is over.
     Nothing,
-    /// This pass, from now on.
+    /// Known pass, from now on.
     Pass(Arc<Judge>),
-    /// A satellite in a tracking window that is too long to check.
+    /// Satellite in a tracking window that is too long to check.
     TooLong { hours: f64 },
-    /// A satellite whose orbit is unknown here.
+    /// Satellite whose orbit Azel does not know.
     Unknown { name: String },
 }
 
 impl Gate {
-    /// Sets what [`Motion::EnableAuto`] is checked against.
+    /// Sets the pass against which the gate checks [`Motion::EnableAuto`].
     pub(in crate::driver) fn set_next_pass(&mut self, pass: NextPass) {
         self.next_pass = pass;
     }
 
-    /// Checks whether the unit may track the pass that it holds.
+    /// Checks whether the unit may track its stored pass.
     pub(super) fn next_pass_is_clear(&self, now: Moment) -> Result<(), Refusal> {
         match &self.next_pass {
-            // With auto-track on and nothing to track, the unit stands.
+            // With auto-track on and no target, the unit stands.
             NextPass::Nothing => Ok(()),
             NextPass::Pass(judge) => self.path_is_clear(judge, now),
             NextPass::Unread => Err(Refusal::PassUnknown),
@@ -44,15 +44,14 @@ impl Gate {
         }
     }
 
-    /// Checks whether the unit may track this pass on its own. If so, [`Motion::StartProgram`] is
-    /// checked against it from now on.
+    /// Checks whether the unit may track this pass on its own. If so, the gate checks
+    /// [`Motion::StartProgram`] against this pass from now on.
     pub(in crate::driver) fn check_pass(
         &mut self,
         judge: &Arc<Judge>,
         now: Moment,
     ) -> Result<(), Refusal> {
-        // The rule looks at the pass that is set, so it has to be set before it is known to be
-        // clear.
+        // The rule checks the pass in `self.program`, so set it before the check.
         let before = self.program.replace(Arc::clone(judge));
         let checked = self.check(Motion::StartProgram, Intent::Track, now);
         if checked.is_err() {
@@ -61,8 +60,8 @@ impl Gate {
         checked
     }
 
-    /// As [`Self::check_pass`], but if only the unit's own way to the start of the pass is not
-    /// clear, returns a motion that takes the antenna there first.
+    /// Checks a pass like [`Self::check_pass`]. If only the unit's own path to the start of the
+    /// pass is blocked, returns a motion that takes the antenna there first.
     pub(in crate::driver) fn way_to_pass(
         &mut self,
         judge: &Arc<Judge>,
@@ -85,14 +84,14 @@ impl Gate {
             NoRoute::Refused(_) => refusal.into(),
             open @ NoRoute::Open(_) => open,
         })?;
-        // Only the unit's own way there was barred, not the pass. The rule judges it again at its
-        // start.
+        // Only the unit's own path to the start was blocked, not the pass. The rule checks that
+        // path again at the start.
         self.program = Some(Arc::clone(judge));
         Ok(Some(to))
     }
 
-    /// Checks whether the whole way of the unit's program, by what the unit reports now, keeps
-    /// to the bounds; also everything that its axes can sweep on the way to the start of the
+    /// Checks whether the whole path of the unit's program keeps to the bounds, with the unit's
+    /// current report. Includes everything that the axes can sweep on the way to the start of the
     /// pass.
     pub(super) fn program_is_clear(&self, now: Moment) -> Result<(), Refusal> {
         self.path_is_clear(self.program.as_ref().ok_or(Refusal::PassUnknown)?, now)
@@ -102,7 +101,7 @@ impl Gate {
         self.path_of_is_clear(judge, &self.state().on_board, now)
     }
 
-    /// [`Self::path_is_clear`] of a unit that would report `unit`.
+    /// Does the same as [`Self::path_is_clear`] for a unit that would report `unit`.
     pub(super) fn path_of_is_clear(
         &self,
         judge: &Arc<Judge>,

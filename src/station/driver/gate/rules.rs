@@ -1,4 +1,4 @@
-//! The rules of the gate. Each is one reason to refuse.
+//! Rules of the gate. Each rule is one reason to refuse.
 
 use super::{Intervals, Situation, way};
 use crate::{
@@ -14,32 +14,32 @@ use crate::{
 
 #[derive(Clone, Copy)]
 pub(super) struct Rule {
-    /// Unique.
+    /// Unique name of the rule.
     pub(super) name: &'static str,
     pub(super) check: Check,
 }
 
 #[derive(Clone, Copy)]
 pub(super) enum Check {
-    /// Any motion, and any action that moves the antenna.
+    /// Rule for any motion, and for any action that moves the antenna.
     Moving(fn(&MotionRequest, &Situation<'_>) -> Result<(), Refusal>),
     Motion(fn(&Motion, &Situation<'_>) -> Result<(), Refusal>),
     Act(fn(&Act, &Situation<'_>) -> Result<(), Refusal>),
-    /// An action that moves the antenna, after the rules of motions.
+    /// Rule for an action that moves the antenna, after the rules of motions.
     MovingAct(fn(&Act, &Situation<'_>) -> Result<(), Refusal>),
     AnySetting(fn(&Situation<'_>) -> Result<(), Refusal>),
-    /// A setting that decides where the antenna points.
+    /// Rule for a setting that decides where the antenna points.
     Setting(fn(&Situation<'_>) -> Option<Hindrance>),
 }
 
-/// A list of rules, each named after its function.
+/// Builds a list of rules, each with the name of its function.
 macro_rules! rules {
     ($($kind:ident($check:ident),)*) => {
         &[$(Rule { name: stringify!($check), check: Check::$kind($check) },)*]
     };
 }
 
-/// All rules; of each kind the plainest reason first.
+/// All rules; the simplest reason of each kind comes first.
 pub(super) const RULES: &[Rule] = rules![
     Moving(unit_is_not_locked_out),
     Motion(something_is_asked_for),
@@ -75,7 +75,7 @@ fn unit_is_not_locked_out(_: &MotionRequest, situation: &Situation<'_>) -> Resul
 }
 
 fn something_is_asked_for(motion: &Motion, _: &Situation<'_>) -> Result<(), Refusal> {
-    // A number that is not finite would pass every comparison of the rules below.
+    // A non-finite number would pass every comparison of the rules below.
     let sound = match *motion {
         Motion::Jog { x_deg_s: x, y_deg_s: y } | Motion::Step { x_deg: x, y_deg: y } => {
             x.is_finite() && y.is_finite() && (x != 0.0 || y != 0.0)
@@ -89,7 +89,8 @@ fn something_is_asked_for(motion: &Motion, _: &Situation<'_>) -> Result<(), Refu
     if sound { Ok(()) } else { Err(Refusal::Nothing) }
 }
 
-/// Only the operator can answer for bounds that are not known, and only for a motion by hand.
+/// Requires readable safety settings. Only the operator can answer for unknown bounds, and only for
+/// a manual motion.
 fn safety_settings_are_read(
     asked: &MotionRequest,
     situation: &Situation<'_>,
@@ -129,7 +130,7 @@ fn controller_offers_it(motion: &Motion, situation: &Situation<'_>) -> Result<()
 }
 
 fn position_is_fresh(asked: &MotionRequest, situation: &Situation<'_>) -> Result<(), Refusal> {
-    // The window locks its controls by the same function, so that both give the same answer.
+    // The window locks its controls with the same function, so both agree.
     position_for(asked, situation.state, situation.now.steady).map(drop)
 }
 
@@ -145,7 +146,7 @@ fn intent_allows_it(asked: &MotionRequest, situation: &Situation<'_>) -> Result<
             matches!(intent, Intent::Position | Intent::Park | Intent::Track)
         }
         MotionRequest::Motion(Motion::StartProgram) => intent == Intent::Track,
-        // The unit starts by itself in any mode; `auto_track_is_clear` judges the pass that it has.
+        // The unit starts on its own in any mode; `auto_track_is_clear` judges its pass.
         MotionRequest::Motion(Motion::EnableAuto) => true,
         MotionRequest::Action(_) => matches!(intent, Intent::Manual | Intent::Position),
     };
@@ -156,12 +157,12 @@ fn no_fault_forbids_it(_: &MotionRequest, situation: &Situation<'_>) -> Result<(
     match situation.state.motion_lock {
         Some(false) => Ok(()),
         Some(true) => Err(Refusal::Fault),
-        // Missing information counts against motion.
+        // Missing information forbids motion.
         None => Err(Refusal::FaultsUnknown),
     }
 }
 
-/// A limit blocks one direction only: the way out stays free.
+/// Refuses a motion towards an active limit switch; the opposite direction stays free.
 fn no_limit_switch_in_that_direction(
     motion: &Motion,
     situation: &Situation<'_>,
@@ -198,14 +199,14 @@ fn within_rates_and_steps(motion: &Motion, situation: &Situation<'_>) -> Result<
                 return Err(Refusal::StepTooLarge { asked_deg, allowed_deg });
             }
         }
-        // The unit turns to these at rates of its own.
+        // The unit turns to these targets at its own rates.
         Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto => {}
     }
     Ok(())
 }
 
-/// Nobody would see where an axis without a known angle turns, and nothing would end its
-/// motion if the link were lost.
+/// Refuses a jog of an axis without a known angle: nobody would see its motion, and it would not
+/// end if the link were lost.
 fn no_blind_jog(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
     let (Motion::Jog { x_deg_s: x, y_deg_s: y } | Motion::Step { x_deg: x, y_deg: y }) = *motion
     else {
@@ -220,22 +221,22 @@ fn no_blind_jog(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusa
     Ok(())
 }
 
-/// By hand the axes stay within their travel; the way back into it is free.
+/// Keeps manual motions within the travel of the axes; the way back into the travel is free.
 fn within_travel(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
     let ahead_deg = match *motion {
-        // As far as it gets before the next position is judged.
+        // Check as far as the axes turn until the next position is judged.
         Motion::Jog { x_deg_s, y_deg_s } => {
             situation.turning([x_deg_s, y_deg_s]).map(|rate| rate * situation.ahead_s)
         }
         Motion::Step { x_deg, y_deg } => [x_deg, y_deg],
-        // `within_reach` judges the end of a position, and a worker the path of a program.
+        // `within_reach` judges the end of a position, and a worker judges the path of a program.
         Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto => return Ok(()),
     };
     let Intervals(axes) = situation.intervals.ok_or(Refusal::PositionUnknown)?;
     let axes = axes.into_iter().zip(situation.mount.travel_deg()).zip(situation.can.axes);
     let axes = axes.take(situation.can.axis_count());
     for (ahead_deg, ((axis, (from_deg, to_deg)), name)) in ahead_deg.into_iter().zip(axes) {
-        // An axis that the unit itself stops at its limits may be turned unseen.
+        // An axis that the unit stops at its limits may turn unseen.
         if !axis.is_known {
             continue;
         }
@@ -254,7 +255,7 @@ pub(super) fn within_reach(motion: &Motion, situation: &Situation<'_>) -> Result
     let lowest_deg = situation.limits.minimum_elevation_deg;
     if let Some(asked) = elevation {
         let is_over = situation.mount.can_flip() && asked.degrees() > 90.0;
-        // Over the zenith the direction on the other side counts.
+        // Beyond the zenith, use the elevation on the other side.
         let asked_deg = if is_over { 180.0 - asked.degrees() } else { asked.degrees() };
         // Angles come from decimal degrees: allow for rounding.
         if asked_deg < lowest_deg - 1e-9 || asked_deg > 90.0 + 1e-9 {
@@ -284,7 +285,7 @@ pub(super) fn within_reach(motion: &Motion, situation: &Situation<'_>) -> Result
     Ok(())
 }
 
-/// Judged as it is sent to the unit, which may round.
+/// Refuses a blocked path. Judges the angles that the unit receives, which it may have rounded.
 fn way_is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
     way::is_clear(&situation.gate.controller.as_sent(*motion), situation)
 }
@@ -308,12 +309,12 @@ fn controller_agrees(asked: &MotionRequest, situation: &Situation<'_>) -> Result
     objection.map_or(Ok(()), |reason| Err(Refusal::Controller(reason)))
 }
 
-/// Even an action without motion may endanger hands.
+/// Refuses all actions during a lock-out: even an action without motion may endanger hands.
 fn no_action_while_locked_out(_: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
     situation.lock_out.map_or(Ok(()), |lock_out| Err(lock_out.into()))
 }
 
-/// No permission helps here: nobody knows.
+/// Refuses an action whose end nobody can know, even with permission.
 fn the_end_of_the_action_can_be_known(act: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
     match situation.gate.controller.lead_of(act) {
         Lead::Unknown(reason) => Err(Refusal::Controller(reason)),
@@ -334,7 +335,7 @@ fn the_operator_answers_for_an_unseen_end(
     }
 }
 
-/// Nobody would stop it before a barrier.
+/// Refuses an unseen path: nobody would stop the antenna before a barrier.
 fn an_unseen_way_is_watched(act: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
     let is_unseen = matches!(situation.gate.controller.lead_of(act), Lead::Unseen(_));
     if !is_unseen || !situation.bounds.forbid_anything() {

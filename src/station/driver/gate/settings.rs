@@ -1,4 +1,4 @@
-//! Settings that decide where the antenna points, and targets, on their way to the controller.
+//! Settings and targets that decide where the antenna points, before they reach the controller.
 
 use std::sync::Arc;
 
@@ -16,18 +16,18 @@ use crate::{
 /// Motion of a unit that tracks on its own, with other offsets.
 #[derive(Debug, Clone)]
 pub(in crate::driver) struct Shift {
-    /// The pass, from now on.
+    /// Pass from now on.
     pub(in crate::driver) judge: Arc<Judge>,
     /// State that the unit would report.
     pub(in crate::driver) axes: OnBoard,
-    /// The same without the offsets that were added from here: where the beam points, if they make
-    /// up for errors of the mount.
+    /// The same state without Azel's offsets: the beam direction, if the offsets correct errors of
+    /// the mount.
     pub(in crate::driver) sky: OnBoard,
 }
 
 impl Gate {
-    /// Checks whether a unit that tracks may get other offsets: a motion, whose whole way from now
-    /// on is looked at, by the axes and on the sky.
+    /// Checks whether a tracking unit may get other offsets. Checks the whole path from now on, by
+    /// the axes and on the sky.
     pub(in crate::driver) fn shift_is_clear(
         &self,
         shift: &Shift,
@@ -44,8 +44,8 @@ impl Gate {
         self.whole_path_is_clear(&shift.judge, &shift.sky)
     }
 
-    /// Writes offsets of the unit's own track, or returns the reason not to. `shift` is what comes
-    /// of them; without one the unit does not track, and they move nothing.
+    /// Writes offsets of the unit's own track, or returns the reason not to. `shift` is the
+    /// resulting motion; `None` if the unit does not track and the offsets move no axis.
     pub(in crate::driver) fn shift_track(
         &mut self,
         change: Change,
@@ -58,7 +58,7 @@ impl Gate {
             Check::AnySetting(check) => check(&situation),
             _ => Ok(()),
         })?;
-        // STOP voids a change of offsets, also one that would move nothing.
+        // STOP voids a change of offsets, even a change that would move nothing.
         if stopping {
             return Err(Refusal::Stopping);
         }
@@ -69,10 +69,10 @@ impl Gate {
         Ok(())
     }
 
-    /// Writes a change of settings to the unit, or returns the reason not to: a setting that
-    /// decides where the antenna points waits until it stands and would not start on its own. A
-    /// refusal also appears among the outcomes of the settings. `may_move`: a motion was requested,
-    /// whatever the antenna does.
+    /// Writes a setting change to the unit, or returns the reason not to. A setting that decides
+    /// where the antenna points waits until the unit stands and would not start on its own. A
+    /// refusal also appears among the setting outcomes. `may_move`: the request includes a motion,
+    /// even while the antenna stands.
     pub(in crate::driver) fn write_settings(
         &mut self,
         change: Change,
@@ -109,15 +109,15 @@ impl Gate {
         Err(Refusal::Setting { field: field.label, hindrance })
     }
 
-    /// Puts a target on the unit, or returns the reason not to: with auto-track on, the
-    /// antenna may start on it.
+    /// Sends a target to the unit, or returns the reason not to: with auto-track on, the antenna
+    /// may start tracking the target.
     pub(in crate::driver) fn prepare(
         &mut self,
         target: TrackTarget,
         intent: Intent,
         now: Moment,
     ) -> Result<(), Refusal> {
-        // The unit could move as soon as it has the target, so its start is judged here already.
+        // The unit could move as soon as it has the target, so judge its start first.
         self.check(Motion::StartProgram, intent, now)?;
         self.controller.prepare(target);
         Ok(())

@@ -1,4 +1,4 @@
-//! Each rule refuses and allows.
+//! Tests of the rules: each rule refuses and allows.
 
 mod any;
 mod detours;
@@ -26,7 +26,7 @@ use crate::{
     station::{KeepOut, Station, SunAvoidance, Unread},
 };
 
-/// A controller that remembers what was started.
+/// Fake controller that records the started motions.
 struct Metal {
     state: AntennaState,
     started: Arc<Mutex<Vec<Motion>>>,
@@ -89,7 +89,7 @@ impl Controller for Metal {
     }
 }
 
-/// A pass that keeps to the limits of the usual antenna.
+/// Pass that stays within the limits of the test antenna.
 static PROGRAM: LazyLock<Arc<Judge>> = LazyLock::new(|| {
     let catalog = crate::orbit::bundled().unwrap();
     let elements = catalog.get(25_544).unwrap().clone();
@@ -119,14 +119,14 @@ struct Case {
     antenna: Antenna,
     keep_outs: Vec<KeepOut>,
     unread: Vec<Unread>,
-    /// The unit's program is started on [`PROGRAM`].
+    /// `true` if the unit's program starts on [`PROGRAM`].
     pass_is_known: bool,
     /// Pass that the unit would track on its own.
     held: NextPass,
     lock_out: Option<LockOut>,
     /// Objection of the controller to any motion.
     objection: Option<&'static str>,
-    /// Where any action leads.
+    /// Lead of every action.
     leads_to: Lead,
 }
 
@@ -181,7 +181,7 @@ impl Case {
         answer
     }
 
-    /// Returns the gate's answer to an action for whose end the operator takes responsibility.
+    /// Returns the gate's answer to an action for which the operator takes responsibility.
     fn act(&self, action: &'static str) -> Result<(), Refusal> {
         let act = Act { action, values: Values::new() };
         let mut gate = self.gate(&Arc::default());
@@ -210,7 +210,7 @@ impl Case {
     }
 }
 
-/// Judges the path of the pass, as the worker does.
+/// Judges the path of the pass, like the worker.
 fn judge(gate: &mut Gate) {
     let unit = gate.state().on_board.clone();
     let Some(program) = gate.program.clone() else { return };
@@ -455,7 +455,7 @@ fn an_azimuth_beyond_the_sky_is_meant_as_the_axis_counts() {
         Bounds::of_antenna(&Antenna { mount, ..case.antenna.clone() }),
         &Default::default(),
     );
-    // The axis stands at 90.
+    // The axis stands at 90 degrees.
     for (asked_deg, meant_deg) in [(10.0, 10.0), (370.0, 370.0), (360.0, 360.0), (-10.0, 350.0)] {
         assert_eq!(gate.nearest(position(asked_deg, 45.0)), Ok(position(meant_deg, 45.0)));
     }

@@ -1,4 +1,4 @@
-//! Checks the way of a motion against the bounds of the antenna.
+//! Check of the path of a motion against the bounds of the antenna.
 
 use super::{Angle, Gate, Intervals, Moment, Motion, Mount, NoRoute, Situation, Sweep};
 use crate::{
@@ -11,24 +11,23 @@ use crate::{
     plan::{Barrier, Bounds, BoundsAt, bounds::Budget, detour::AxisLimits, on_board::ALONG_DEG},
 };
 
-/// An antenna leaves a barrier only by hand, at no more than this share of the fastest rate,
-/// or at the controller's slowest speed.
+/// Max share of the fastest rate at which an antenna leaves a barrier. Only a manual motion leaves
+/// it, at most at this rate or at the controller's slowest speed.
 const OUT_SHARE: f64 = 0.25;
-/// Minimum gain of a way out over the time for which it is judged ahead, and maximum loss on
-/// the way, degrees.
+/// Min gain of a way out over the time judged ahead, and max loss on the way, degrees.
 const OUT_GAIN_DEG: f64 = 1e-6;
-/// Distance between the places at which a way out is checked, lest it leads in deeper between
-/// its ends: degrees of the axis that turns further.
+/// Distance between the checked places of a way out, degrees of the axis that turns further. The
+/// path between its ends must not lead in deeper.
 const LOOK_OUT_DEG: f64 = 0.5;
 
-/// Number of places of a detour that are tried first, evenly from its end.
+/// Number of places of a detour that Azel tries first, evenly from its end.
 const FIRST_PLACES: usize = 6;
 
-/// The way of a motion to a position.
+/// Path of a motion to a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::driver) struct Route {
     pub(in crate::driver) first: Motion,
-    /// The motion after the first has arrived, where the way goes round a corner.
+    /// Second motion, after the first has arrived, if the path goes round a corner.
     pub(in crate::driver) then: Option<Motion>,
 }
 
@@ -45,7 +44,7 @@ pub(super) fn is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(),
             by_hand(intervals, ahead_deg, Some(rates), situation)
         }
         Motion::Step { x_deg, y_deg } => by_hand(intervals, [x_deg, y_deg], None, situation),
-        // The way of the unit's own program is judged elsewhere.
+        // A worker judges the path of the unit's own program.
         Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto => Ok(()),
     }
 }
@@ -58,11 +57,11 @@ fn to_position(
     let intervals = situation.intervals.ok_or(Refusal::PositionUnknown)?;
     let start = intervals.sweep();
     let end = target(azimuth, elevation, start, situation).ok_or(Refusal::PositionUnknown)?;
-    // The last position may be seconds old. A track sends its next position while the axes turn,
-    // so the way begins wherever they can be by now.
+    // The last position may be seconds old. A track sends its next position while the axes turn, so
+    // the path begins at any place that they can have reached.
     let gone_on = situation.gate.gone_on(start, situation.ahead_s);
     let ways = ways_round(azimuth.is_some(), start.union(end), gone_on, situation);
-    // The unit chooses between these, so a barrier on either refuses the motion.
+    // The unit chooses between these paths, so a barrier on either path refuses the motion.
     for sweep in ways.into_iter().flatten() {
         away_from_the_sun(sweep, intervals, end, situation)
             .unwrap_or_else(|| blocked(sweep, start, &situation.bounds_now()))?;
@@ -70,9 +69,9 @@ fn to_position(
     Ok(())
 }
 
-/// The ways that the azimuth axis may take: as it counts, or over north. It does not cross its
-/// limits, so a way across one is left out if the other way crosses none. Each begins wherever the
-/// axes have `gone_on` to.
+/// Returns the possible paths of the azimuth axis: direct, or over north. The axis does not cross
+/// its limits, so omits a path across a limit if the other path crosses none. Each path begins at
+/// the range `gone_on`.
 pub(super) fn ways_round(
     turns_azimuth: bool,
     counted: Sweep,
@@ -106,13 +105,13 @@ impl Situation<'_> {
         self.at_present(self.bounds)
     }
 
-    /// These bounds at present, with the offsets of the axes.
+    /// Evaluates these bounds at the current time, with the offsets of the axes.
     fn at_present<'b>(&'b self, bounds: &'b Bounds) -> BoundsAt<'b> {
         bounds.at_time(self.now.utc).turned_by(self.to_sky).with_budget(self.budget)
     }
 
-    /// The rates at which the axes really turn in a jog: a controller with named speeds has no
-    /// others.
+    /// Returns the true rates of the axes in a jog, because a controller may have only a few named
+    /// speeds.
     pub(super) fn turning(&self, asked_deg_s: [f64; 2]) -> [f64; 2] {
         let fastest_deg_s = self.limits.maximum_rate_deg_s;
         asked_deg_s.map(|rate| {
@@ -123,8 +122,8 @@ impl Situation<'_> {
     }
 }
 
-/// The operator may leave the surroundings of the Sun by a go-to that comes no nearer to it
-/// and ends outside. `None` where the motion does not start there.
+/// Allows a go-to from the surroundings of the Sun that comes no nearer to the Sun and ends
+/// outside. Returns `None` if the motion does not start there.
 fn away_from_the_sun(
     sweep: Sweep,
     start: Intervals,
@@ -139,7 +138,7 @@ fn away_from_the_sun(
     Some(blocked(sweep, start.sweep(), &situation.at_present(&leaving)))
 }
 
-/// A motion by hand whose end may not be known: the operator holds it.
+/// Judges a manual motion, whose end may be unknown: the operator controls it.
 fn by_hand(
     intervals: Intervals,
     ahead_deg: [f64; 2],
@@ -161,10 +160,10 @@ fn by_hand(
     let Some(inside) = inside else {
         return blocked(sweep, start, &bounds_now);
     };
-    // Leaving one barrier gives no leave to enter another.
+    // The permission to leave one barrier does not cover another barrier.
     let outside_of = bounds_now.without_entered(start);
     blocked(sweep, start, &situation.at_present(&outside_of))?;
-    // Without an elevation axis only a turn in azimuth leads out.
+    // Without an elevation axis, only a turn in azimuth leads out.
     let is_left = if situation.can.has_elevation() {
         is_left_on_the_way(start, ahead_deg, &bounds_now)
     } else {
@@ -177,7 +176,7 @@ fn by_hand(
     slowly_by_permission(rates_deg_s, Refusal::Inside(inside.barrier.clone()), situation)
 }
 
-/// Returns `true` if a motion of both axes from `start` leads out of barriers, and nowhere deeper.
+/// Returns `true` if a motion of both axes from `start` leads out of barriers and nowhere deeper.
 fn is_left_on_the_way(start: Sweep, ahead_deg: [f64; 2], bounds: &BoundsAt<'_>) -> bool {
     let here = Depth::new(bounds, start);
     let looks = (ahead_deg[0].abs().max(ahead_deg[1].abs()) / LOOK_OUT_DEG).ceil().max(1.0) as u32;
@@ -185,9 +184,10 @@ fn is_left_on_the_way(start: Sweep, ahead_deg: [f64; 2], bounds: &BoundsAt<'_>) 
     (1..=looks).all(|look| {
         let share = f64::from(look) / f64::from(looks);
         let there = Depth::new(bounds, start.turned(ahead_deg.map(|deg| deg * share)));
-        // On the way it may lead along an edge, or past a point where the way out is shorter.
+        // Before its end, the path may follow an edge, or pass a point from which the way out is
+        // shorter.
         let gain_deg = if look == looks { OUT_GAIN_DEG } else { -OUT_GAIN_DEG };
-        // A gap between two barriers is no way out if the motion runs on into the second.
+        // A gap between two barriers is no way out if the motion continues into the second.
         let enters_again = was_out && !there.is_out();
         was_out = there.is_out();
         !enters_again && here.is_left_for(&there, gain_deg)
@@ -204,8 +204,8 @@ fn is_left_by_azimuth(start: Sweep, [ahead_deg, _]: [f64; 2], bounds: &BoundsAt<
     is_shorter && bounds.blocks(beyond, start).is_none()
 }
 
-/// A motion by hand while the angle of an axis is unknown: free where nothing is in the way from
-/// anywhere that the axes may be, else by permission.
+/// Judges a manual motion while the angle of an axis is unknown. The motion needs no permission if
+/// no barrier blocks it from any possible position.
 fn by_hand_unseen(
     intervals: Intervals,
     ahead_deg: [f64; 2],
@@ -216,8 +216,8 @@ fn by_hand_unseen(
     let start = intervals.sweep();
     let sweep = start.union(intervals.after(ahead_deg, situation.mount.travel_deg()));
     let Some((barrier, at)) = bounds_now.blocks_unseen(sweep, start) else { return Ok(()) };
-    // The operator's permission overrides neither what the known angle alone forbids nor barriers
-    // that the axes are definitely outside.
+    // The operator's permission does not override a known elevation below the minimum, nor a
+    // barrier that the axes are definitely outside.
     let Intervals([_, second]) = intervals;
     let knows_elevation = matches!(situation.mount, Mount::AzEl { .. }) && second.is_known;
     if knows_elevation && bounds_now.leads_below_the_floor(sweep, start) {
@@ -230,15 +230,15 @@ fn by_hand_unseen(
     slowly_by_permission(rates_deg_s, refusal, situation)
 }
 
-/// Allows a motion by hand that the operator answers for, no faster than a share of the highest
-/// rate; returns `refusal` without that permission.
+/// Allows a manual motion on the operator's responsibility, at most at a share of the highest rate;
+/// returns `refusal` without that permission.
 pub(super) fn slowly_by_permission(
     rates_deg_s: Option<[f64; 2]>,
     refusal: Refusal,
     situation: &Situation<'_>,
 ) -> Result<(), Refusal> {
     let fastest = rates_deg_s.into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
-    // A controller with named speeds may have none as slow as the share.
+    // The named speeds of a controller may all exceed this share.
     let slowest_share = match situation.can.jog {
         JogSpeeds::Named(speeds) => speeds.first().map_or(0.0, |slowest| slowest.share),
         JogSpeeds::AnyRate => 0.0,
@@ -250,14 +250,14 @@ pub(super) fn slowly_by_permission(
     if situation.gate.lets_out(situation.now) { Ok(()) } else { Err(refusal) }
 }
 
-/// How deep the axes stand inside barriers.
+/// Depth of the axes inside barriers.
 #[allow(clippy::struct_field_names, reason = "names tell their units")]
 struct Depth {
-    /// Distance to an allowed position, degrees; `None` where no axis gets out by itself.
+    /// Distance to an allowed position, degrees; `None` if no single axis can get out.
     way_out_deg: Option<f64>,
-    /// Below the minimum elevation, degrees.
+    /// Depth below the minimum elevation, degrees.
     below_deg: f64,
-    /// Inside of each other barrier, degrees.
+    /// Depth inside each other barrier, degrees.
     inside_deg: Vec<f64>,
 }
 
@@ -271,8 +271,8 @@ impl Depth {
         self.way_out_deg.is_some_and(|deg| deg <= 0.0)
     }
 
-    /// Returns `true` if `there` is less deep by `gain_deg`, or outside of everything, and no
-    /// lower below the minimum elevation.
+    /// Returns `true` if `there` is shallower by `gain_deg`, or outside of everything, and no lower
+    /// below the minimum elevation.
     fn is_left_for(&self, there: &Self, gain_deg: f64) -> bool {
         if there.below_deg > self.below_deg + OUT_GAIN_DEG {
             return false;
@@ -280,8 +280,8 @@ impl Depth {
         match (self.way_out_deg, there.way_out_deg) {
             (Some(here), Some(there)) => there < here - gain_deg || (here <= 0.0 && there <= 0.0),
             (Some(_), None) => false,
-            // No axis gets out by itself: the edge of the deepest barrier must come nearer,
-            // and no other may go further away.
+            // No single axis can get out: the edge of the deepest barrier must come nearer, and no
+            // other edge may recede.
             (None, _) => {
                 let deepest = |depths: &[f64]| depths.iter().copied().fold(0.0, f64::max);
                 let mut each = self.inside_deg.iter().zip(&there.inside_deg);
@@ -298,7 +298,7 @@ fn blocked(sweep: Sweep, start: Sweep, bounds: &BoundsAt<'_>) -> Result<(), Refu
         .map_or(Ok(()), |(barrier, at)| Err(Refusal::Forbidden { barrier, direction: at }))
 }
 
-/// Where the axes may be at the end of a motion to a position; `None` where that is not known.
+/// Returns the possible end positions of the axes after a motion to a position; `None` if unknown.
 fn target(
     azimuth: Option<Angle>,
     elevation: Option<Angle>,
@@ -319,7 +319,7 @@ fn target(
     }
 }
 
-/// The controller counts 90 at the zenith.
+/// Returns the angles of an X/Y mount in the controller's count, with 90 at the zenith.
 fn crossed(direction: AzEl, lower_axis_azimuth_deg: f64) -> [f64; 2] {
     let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
     let axes = xy_mount::axes_from_azel(direction, lower_axis);
@@ -327,7 +327,7 @@ fn crossed(direction: AzEl, lower_axis_azimuth_deg: f64) -> [f64; 2] {
 }
 
 impl Gate {
-    /// The way of `motion` to its position: direct, or one axis after the other where both
+    /// Returns the path of `motion` to its position: direct, or one axis after the other if both
     /// together may sweep through a barrier.
     pub(in crate::driver) fn route(
         &self,
@@ -338,7 +338,7 @@ impl Gate {
         self.route_within(motion, intent, &Budget::default(), now)
     }
 
-    /// The same for one of many searches that share `budget`.
+    /// Does the same as [`Self::route`] for one of many searches that share `budget`.
     pub(in crate::driver) fn route_within(
         &self,
         motion: Motion,
@@ -368,12 +368,11 @@ impl Gate {
         if intent != Intent::Track {
             return Err(refusal.into());
         }
-        // A sequence of positions may follow any way.
+        // A sequence of positions may follow any path.
         let places_deg = self.detour_places_deg(from_deg, to_deg, now)?;
-        // The worker searched from where the axes were then; they have moved since, and so has the
-        // Sun.
+        // The worker searched from an earlier position; the axes and the Sun have moved since.
         let is_reached = |place_deg: &&[f64; 2]| check(self.to_axes(**place_deg)).is_ok();
-        // A few first, because each look takes time.
+        // Try a few places first, because each check takes time.
         let step = places_deg.len().div_ceil(FIRST_PLACES).max(1);
         let from_the_end = || places_deg.iter().rev();
         let farthest = from_the_end()
@@ -386,13 +385,13 @@ impl Gate {
             .ok_or(NoRoute::Refused(refusal))
     }
 
-    /// From where the axes were read to where their last motion may have taken them within `ahead_s`
-    /// seconds.
+    /// Returns the range from the read position to the position that the last motion may have
+    /// reached within `ahead_s` seconds.
     fn gone_on(&self, start: Sweep, ahead_s: f64) -> Sweep {
         let gone_deg = self.limits.maximum_rate_deg_s * ahead_s;
         let mut gone_on = start;
         let axes = gone_on.0.iter_mut().zip(self.turns).zip(self.to_deg);
-        // An axis that no motion of Azel turns stays where it was read.
+        // An axis that no motion of Azel turns stays at its last reading.
         for (((from_deg, to_deg), _), end_deg) in axes.filter(|((_, turns), _)| *turns) {
             let ends_deg = end_deg.map_or((f64::NEG_INFINITY, f64::INFINITY), |deg| (deg, deg));
             let lowest_deg = ends_deg.0.max(*from_deg - gone_deg);
@@ -412,8 +411,7 @@ impl Gate {
         AxisLimits::new(travel_deg, [self.limits.maximum_rate_deg_s; 2], rests_within_deg)
     }
 
-    /// Where the axes will stand after turning by `ahead_deg`; an axis on its way to a
-    /// position ends there.
+    /// Returns the axis angles after turning by `ahead_deg`, but at most to the target of a motion.
     pub(in crate::driver) fn ahead_of(&self, axes_deg: [f64; 2], ahead_deg: [f64; 2]) -> [f64; 2] {
         let mut reached = [axes_deg[0] + ahead_deg[0], axes_deg[1] + ahead_deg[1]];
         let overrun_deg = self.variant.capabilities.arrives_within_deg * 2.0;
@@ -424,14 +422,14 @@ impl Gate {
             if passes {
                 *reached = to_deg;
             } else if (from_deg - to_deg).abs() <= overrun_deg {
-                // It runs out around the position that it was sent to.
+                // The axis comes to rest around its target position.
                 *reached = from_deg;
             }
         }
         reached
     }
 
-    /// The axes before and after a motion to a position.
+    /// Returns the axis angles before and after a motion to a position.
     pub(super) fn ends(&self, motion: Motion, now: Moment) -> Option<([f64; 2], [f64; 2])> {
         let Motion::Position { azimuth, elevation } = self.controller.as_sent(motion) else {
             return None;
@@ -444,8 +442,8 @@ impl Gate {
         Some((from_deg, [first_deg, second_deg]))
     }
 
-    /// Where each axis will stand after a motion to a position. An axis that is sent somewhere
-    /// ends there, also from its limit, where it has no angle.
+    /// Returns the angle of each axis after a motion to a position. An axis with a target ends
+    /// there, also from its limit, where it has no angle.
     pub(super) fn sent_to(&self, motion: Motion, now: Moment) -> [Option<f64>; 2] {
         match self.controller.as_sent(motion) {
             Motion::Position { azimuth, elevation } if matches!(self.mount, Mount::AzEl { .. }) => {
@@ -469,9 +467,9 @@ impl Gate {
         Motion::Position { azimuth: Some(azimuth), elevation: Some(elevation) }
     }
 
-    /// Refuses a way to `to` that the unit takes by itself, at its own rates. The unit keeps
-    /// to its own minimum elevation at the end, but not between: where both axes of an X/Y mount
-    /// turn, the antenna may dip.
+    /// Refuses a blocked path to `to` that the unit takes at its own rates. The unit keeps to its
+    /// own minimum elevation at the end, but not between: if both axes of an X/Y mount turn, the
+    /// antenna may dip.
     pub(super) fn slew_is_clear(&self, to: AzEl, now: Moment) -> Result<(), Refusal> {
         let situation = self.situation(Intent::Track, false, now);
         let start = situation.intervals.ok_or(Refusal::PositionUnknown)?.sweep();
@@ -482,8 +480,8 @@ impl Gate {
         blocked(start.union(end), start, &bounds)
     }
 
-    /// The lead of an action as a motion to a position; `None` where it leads nowhere or is
-    /// unknown.
+    /// Returns the lead of an action as a motion to a position; `None` without a lead to a
+    /// position, an error for an unknown lead.
     pub(super) fn motion_of(&self, act: &Act) -> Result<Option<Motion>, Refusal> {
         let Lead::To(to_deg) = self.controller.lead_of(act) else { return Ok(None) };
         let [first, second] = to_deg;
@@ -497,7 +495,7 @@ impl Gate {
         Ok(Some(self.to_axes(axes_deg)))
     }
 
-    /// Angles of the axes at the end of an action, as far as they are known.
+    /// Returns the known angles of the axes at the end of an action.
     pub(super) fn end_of(&self, act: &Act) -> [Option<f64>; 2] {
         match self.controller.lead_of(act) {
             Lead::To(to_deg) => to_deg,

@@ -1,4 +1,4 @@
-//! Finds where addresses lead, and locks the places before a link connects to them.
+//! Endpoints of addresses. Azel locks the endpoints before a link connects to them.
 
 use std::{
     io,
@@ -10,16 +10,16 @@ use tokio::{sync::Mutex as AsyncMutex, task::JoinHandle};
 
 use crate::station::{Connection, Link, check_address};
 
-/// A place where a unit can be reached, as far as this computer can tell places apart.
+/// Place of a unit, as far as this computer can tell places apart.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Endpoint {
     Tcp(SocketAddr),
-    /// A serial port of this computer, by its device: several paths may lead to it.
+    /// Serial port of this computer, by its device: several paths may lead to the same device.
     Port(String),
 }
 
 impl Endpoint {
-    /// Name of the place: the same for all spellings of an address.
+    /// Returns the name of the place, equal for all spellings of an address.
     pub fn key(&self) -> String {
         let address = match self {
             Self::Port(device) => return format!("port {device}"),
@@ -39,22 +39,22 @@ impl Endpoint {
     }
 }
 
-/// Keeps other processes off the unit of a session until the session has ended.
+/// Lock that keeps other processes off the unit of a session until the session has ended.
 pub trait UnitLock: Send + Sync {
-    /// Locks all `endpoints` of the unit and releases those of an earlier call. Blocks for file
-    /// operations. The error names the process that has a lock.
+    /// Locks all `endpoints` of the unit and releases the previous endpoints. Blocks for file
+    /// operations. The error names the process that owns a lock.
     fn lock(&self, endpoints: &[Endpoint]) -> io::Result<()>;
 }
 
-/// Ignores other processes.
+/// Lock that ignores other processes.
 impl UnitLock for () {
     fn lock(&self, _: &[Endpoint]) -> io::Result<()> {
         Ok(())
     }
 }
 
-/// The endpoints of a connection that can be found without a name service. `None` for a host name
-/// and for a serial port that is not there: the link finds these when it connects.
+/// Returns the endpoints of a connection that need no name service. Returns `None` for a host name
+/// and for a missing serial port: the link resolves these when it connects.
 pub fn known_endpoints(connection: &Connection) -> Option<Vec<Endpoint>> {
     let address = connection.address.trim();
     let endpoint = if is_port(connection) {
@@ -94,7 +94,7 @@ fn tcp_addresses(address: &str) -> io::Result<Vec<SocketAddr>> {
     Ok(found)
 }
 
-/// The device of the serial port at `path`.
+/// Returns the device of the serial port at `path`.
 #[cfg(unix)]
 pub(super) fn device(path: &str) -> io::Result<String> {
     use std::os::unix::fs::{FileTypeExt as _, MetadataExt as _};
@@ -111,8 +111,8 @@ pub(super) fn device(path: &str) -> io::Result<String> {
     Ok(path.to_lowercase())
 }
 
-/// Finds and locks the addresses of a host, on a thread for work that blocks. At most one lookup
-/// runs at a time, however long it outlasts an attempt to connect.
+/// Lookup of a host that also locks its addresses, on a thread for blocking work. At most one
+/// lookup runs at a time, even if it outlasts an attempt to connect.
 #[derive(Clone)]
 pub(super) struct Lookup {
     address: Arc<str>,
@@ -127,7 +127,7 @@ impl Lookup {
         Self { address: address.trim().into(), lock, running: Arc::default() }
     }
 
-    /// Returns the addresses, all of them locked.
+    /// Looks up the host, locks all its addresses and returns them.
     pub(super) async fn locked_addresses(&self) -> io::Result<Vec<SocketAddr>> {
         let mut running = self.running.lock().await;
         let lookup = running.get_or_insert_with(|| {

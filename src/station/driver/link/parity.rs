@@ -1,4 +1,4 @@
-//! A link whose far end is a line of seven bits and even parity.
+//! Link whose far end is a serial line of seven bits and even parity.
 
 use std::{
     io,
@@ -15,24 +15,24 @@ use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use super::{Duplicate, Stream};
 use crate::protocol::Parity;
 
-/// Longer writes are split into pieces of this size.
+/// Max size of a single write, bytes; longer writes are split.
 const PIECE: usize = 64;
-/// Findings, in rising order; 0 means nothing.
+/// Findings in ascending order; 0 means no finding.
 const SILENT: u8 = 1;
 const FITS: u8 = 2;
 const IS_WRONG: u8 = 3;
 
-/// Finding about the link: do its bytes fit the way in which they were read?
+/// Finding about the link: do the received bytes fit the assumed parity mode?
 #[derive(Debug, Default)]
 pub(super) struct Heard(AtomicU8);
 
 impl Heard {
-    /// The link is open: from now on silence tells something, too.
+    /// Records that the link is open: from now on, silence is a finding, too.
     pub(super) fn opened(&self) {
         self.learn(SILENT);
     }
 
-    /// Returns `true` unless something speaks against reading the next link in the same way.
+    /// Returns `true` unless a finding contradicts the current parity mode for the next link.
     pub(super) fn fits(&self) -> bool {
         !matches!(self.0.load(Ordering::Relaxed), SILENT | IS_WRONG)
     }
@@ -43,13 +43,13 @@ impl Heard {
         }
     }
 
-    /// A mistake found once stays found.
+    /// Records a finding; keeps the more severe of both.
     fn learn(&self, finding: u8) {
         self.0.fetch_max(finding, Ordering::Relaxed);
     }
 }
 
-/// Adds the parity to outgoing bytes and removes it from incoming ones.
+/// Stream that adds the parity to outgoing bytes and removes it from incoming bytes.
 #[derive(Debug)]
 pub(super) struct WithParity<S> {
     stream: S,

@@ -8,14 +8,15 @@ use super::{Dial, Duplicate, Endpoint, Stream, UnitLock, endpoint::device, parit
 use crate::protocol::Parity;
 
 impl Stream for SerialPort {
-    /// The library gives no handle. The one make on a serial line ends its jogs by itself.
+    /// Returns no handle, because the library offers none. The only make on a serial line ends its
+    /// jogs without Azel.
     fn duplicate(&self) -> io::Result<Option<Duplicate>> {
         Err(io::ErrorKind::Unsupported.into())
     }
 }
 
-/// Opens the serial port `name` at `baud` bits a second, with seven bits and even parity, once
-/// `lock` has its device.
+/// Returns a dialler for the serial port `name` at `baud` bits a second, with seven bits and even
+/// parity. The dialler locks the device first.
 pub(super) fn dial_serial(name: &str, baud: u32, lock: Arc<dyn UnitLock>) -> Dial {
     let name: Arc<str> = name.trim().into();
     Box::new(move || {
@@ -34,15 +35,15 @@ fn open_locked(name: &str, baud: u32, lock: &dyn UnitLock) -> io::Result<(Serial
     let locked = device(name)?;
     lock.lock(&[Endpoint::Port(locked.clone())])?;
     let opened = open(name, baud)?;
-    // A plug that was changed meanwhile may have brought another device.
+    // A changed plug may have connected another device.
     if device(name)? != locked {
         return Err(io::Error::other("the serial port was replaced while it was opened"));
     }
     Ok(opened)
 }
 
-/// A port without parity, such as a pseudo-terminal, is opened with eight bits, and this end
-/// adds the parity.
+/// Opens a port. If the port has no parity, such as a pseudo-terminal, opens it with eight bits;
+/// Azel then adds the parity.
 fn open(name: &str, baud: u32) -> io::Result<(SerialPort, Parity)> {
     let mut port = SerialPort::open(name, |settings| raw(settings, baud))?;
     let mut settings = port.get_configuration()?;
@@ -54,13 +55,13 @@ fn open(name: &str, baud: u32) -> io::Result<(SerialPort, Parity)> {
         port.set_configuration(&raw(settings, baud)?)?;
         Parity::Software
     };
-    // Bytes received earlier belong to nobody. A port that cannot discard them delivers bytes
-    // that make no frame.
+    // Earlier bytes belong to no query. If a port cannot discard them, the frame parser rejects
+    // these bytes.
     port.discard_buffers().ok();
     Ok((port, parity))
 }
 
-/// Eight bits, no parity, bytes unchanged.
+/// Sets eight bits, no parity and unchanged bytes.
 fn raw(mut settings: Settings, baud: u32) -> io::Result<Settings> {
     settings.set_raw();
     settings.set_baud_rate(baud)?;
@@ -71,7 +72,7 @@ fn raw(mut settings: Settings, baud: u32) -> io::Result<Settings> {
     Ok(settings)
 }
 
-/// The error in plain words where those of the system do not help.
+/// Returns a plain error text if the system's text does not help.
 fn in_words(error: io::Error) -> io::Error {
     let words = match error.kind() {
         io::ErrorKind::NotFound => "no such serial port",

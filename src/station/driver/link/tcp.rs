@@ -17,7 +17,8 @@ impl Stream for TcpStream {
     }
 }
 
-/// Opens TCP links to `address` (host and port), once `lock` has all that the address leads to.
+/// Returns a dialler for TCP links to `address` (host and port). The dialler locks all endpoints of
+/// the address first.
 pub(super) fn dial_tcp(address: &str, lock: Arc<dyn UnitLock>) -> Dial {
     let lookup = Lookup::new(address, lock);
     Box::new(move || {
@@ -26,12 +27,11 @@ pub(super) fn dial_tcp(address: &str, lock: Arc<dyn UnitLock>) -> Dial {
     })
 }
 
-/// Opens links to the serial server at `address`.
+/// Returns a dialler for links to the serial server at `address`.
 ///
-/// A server set to seven bits and even parity adds the parity; one set to eight bits passes
-/// bytes on, and this end must add it. A wrong guess shows in a unit that stays silent or
-/// sends the eighth bit. After a link on which nothing fitted, the next one uses the other
-/// guess.
+/// A server set to seven bits and even parity adds the parity. A server set to eight bits forwards
+/// bytes unchanged, so Azel must add the parity. After a wrong guess, the unit stays silent or
+/// sends the eighth bit. After a link without any fitting byte, the next link uses the other guess.
 pub(super) fn dial_line_server(address: &str, lock: Arc<dyn UnitLock>) -> Dial {
     let lookup = Lookup::new(address, lock);
     let mut parity = Parity::Port;
@@ -55,11 +55,11 @@ pub(super) fn dial_line_server(address: &str, lock: Arc<dyn UnitLock>) -> Dial {
     })
 }
 
-/// Connects to a locked address. Looking the name up again could lead to one that is not locked.
+/// Connects to a locked address. A second name lookup could return an address without a lock.
 async fn open(lookup: &Lookup) -> io::Result<TcpStream> {
     let addresses = lookup.locked_addresses().await?;
     let stream = TcpStream::connect(addresses.as_slice()).await?;
-    // A STOP must not wait for a fuller packet.
+    // STOP must not wait for a fuller packet.
     stream.set_nodelay(true)?;
     Ok(stream)
 }

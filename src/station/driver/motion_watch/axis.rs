@@ -1,4 +1,4 @@
-//! The watch over one axis.
+//! Watch over one axis.
 
 use std::time::Duration;
 
@@ -14,35 +14,36 @@ use crate::{
     device::{AxisMotion, Drive},
 };
 
-/// An axis on its way turns no slower, degrees a second.
+/// Min rate of an axis in motion, degrees a second.
 const SLOWEST_DEG_S: f64 = 0.25;
-/// A standing axis may creep by 0.3 degrees a minute.
+/// Max creep of a standing axis, 0.3 degrees a minute, in degrees a second.
 const CREEPS_DEG_S: f64 = 0.3 / 60.0;
-/// Number of motions that are kept. A further one joins the oldest two.
+/// Max number of stored motions. For a further motion, the watch joins the oldest two.
 const MOST_MOTIONS: usize = 24;
-/// Readings may show so much later what an axis does.
+/// Max delay between a motion of the axis and the reading that shows it.
 const LATE: Duration = Duration::from_secs(2);
-/// An axis that was not read for longer may have turned and come to rest.
+/// Max time without a reading. After a longer gap, the axis may have turned and stopped.
 const UNSEEN: Duration = Duration::from_secs(2);
-/// An axis that may have gone either way round, and stands this near to the end, has arrived, degrees.
+/// Max distance from the target at which an axis with two possible paths counts as arrived,
+/// degrees.
 const NEAR_DEG: f64 = 10.0;
-/// Motions that follow each other within this time are steps.
+/// Max interval between motions that count as steps.
 const STEPS: Duration = Duration::from_secs(5);
 const TURN_DEG: f64 = 360.0;
 
-/// Where the axis can be, at the time of the last reading inside.
+/// Possible range of the axis at the time of the last reading inside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Known {
     range: Range,
     at: Instant,
-    /// Turns to add to a reading that wraps, degrees.
+    /// Turns added to a reading that wraps, degrees.
     turns_deg: f64,
 }
 
-/// When the axis was last seen to turn.
+/// Last observed turn of the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Turned {
-    /// The reading that later ones are compared with, degrees.
+    /// Reading to compare later readings with, degrees.
     from_deg: f64,
     at: Option<Instant>,
     is_up: bool,
@@ -52,7 +53,7 @@ struct Turned {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Outside {
     since: Instant,
-    /// The unit has said that the axis turns.
+    /// `true` if the unit has reported a driven axis.
     is_driven: bool,
 }
 
@@ -61,25 +62,25 @@ pub(super) struct AxisWatch {
     figures: AxisFigures,
     known: Option<Known>,
     motions: Vec<Live>,
-    /// When the last motion was sent, and whether the axis has not turned since then although it
-    /// stood before.
+    /// Send time of the last motion. `starts` is `true` if the axis stood before and has not turned
+    /// since.
     sent: Option<Instant>,
     starts: bool,
     /// Signed length of the last motion, degrees.
     last_way_deg: f64,
-    /// When the axis was last sent elsewhere on its way.
+    /// Last time at which a new target redirected the moving axis.
     redirected: Option<Instant>,
     turned: Option<Turned>,
-    /// The reading from which the rate is measured, degrees.
+    /// Reference reading for the rate, degrees.
     rate_from: Option<(f64, Instant)>,
-    /// The unit said that it turned when it was read first.
+    /// `true` if the unit reported a turning axis at the first reading.
     was_found_turning: bool,
-    /// Somebody else moves it, and that was told.
+    /// `true` after the report that somebody else moves the axis.
     is_told: bool,
-    /// It came to rest after the last motion that was sent.
+    /// `true` if the axis came to rest after the last motion.
     has_settled: bool,
     outside: Option<Outside>,
-    /// Time of the first in an unbroken series of reports of foreign motion.
+    /// Time of the first report in an unbroken series of reports of foreign motion.
     reported_since: Option<Instant>,
     open_until: Option<Instant>,
     spread: Spread,
@@ -166,8 +167,8 @@ impl AxisWatch {
         }
     }
 
-    /// Length of a motion to `end`: from that of the motion before, because somebody else may have moved
-    /// the axis away from there.
+    /// Returns the length of a motion to `end`, degrees. Measures from the end of the previous
+    /// motion, because somebody else may have moved the axis away from there.
     fn way_deg(&self, end: Range, here: Option<Range>) -> f64 {
         let last = self.motions.last().filter(|last| last.ends);
         let from = last.map(|last| Range { from_deg: last.down_to_deg, to_deg: last.up_to_deg });
@@ -177,7 +178,7 @@ impl AxisWatch {
         self.turned_deg(way_deg)
     }
 
-    /// The shorter way round, where the reading wraps.
+    /// Returns the shorter turn, degrees, if the reading wraps.
     fn turned_deg(&self, deg: f64) -> f64 {
         if !self.figures.wraps || !deg.is_finite() {
             return deg;
@@ -185,9 +186,9 @@ impl AxisWatch {
         (deg + TURN_DEG / 2.0).rem_euclid(TURN_DEG) - TURN_DEG / 2.0
     }
 
-    /// The motion with this number ends those before it.
+    /// Ends the motions before this number.
     pub(super) fn accepted(&mut self, number: u64, now: Instant) {
-        // A motion that does not concern this axis ends nothing of it.
+        // A motion of the other axis ends no motion of this axis.
         if !self.motions.iter().any(|motion| motion.number == number) {
             return;
         }
@@ -201,15 +202,15 @@ impl AxisWatch {
         self.motions.retain(|motion| motion.ends);
     }
 
-    /// Ends all motions but allows for coasting: at a coarse resolution, equal readings can hide a slow
-    /// motion.
+    /// Ends all motions but allows for coasting: at a coarse resolution, equal readings can hide a
+    /// slow motion.
     pub(super) fn proved_still(&mut self, now: Instant) {
         for motion in &mut self.motions {
             motion.until = Some(motion.until.map_or(now, |until| until.min(now)));
         }
     }
 
-    /// The unit's own program may turn the axis until now, and it may coast.
+    /// Allows the unit's own program to turn the axis until now, and the axis to coast afterwards.
     pub(super) fn opened(&mut self, now: Instant) {
         self.open_until = self.open_until.max(Some(now + DEAD_TIME + COASTS));
     }
@@ -223,9 +224,10 @@ impl AxisWatch {
         self.spread.turns();
     }
 
-    /// Returns `true` if commands explain the reading: the axis turns inside the interval, or stands where
-    /// a motion ends or where it was read last. At rest between the two, somebody has stopped it.
-    /// It may coast by `coasts_deg`. Without an earlier reading nobody knows.
+    /// Returns `true` if commands explain the reading: the axis turns inside the interval, or
+    /// stands at the end of a motion or at its last reading. An axis at rest between these places
+    /// was stopped by somebody else. The axis may coast by `coasts_deg`. Returns `false` without an
+    /// earlier reading.
     pub(super) fn explains(&self, reading: AxisReading, coasts_deg: f64) -> bool {
         let AxisReading { angle_deg, motion, asked, received, .. } = reading;
         if self.open_until.is_some_and(|until| asked <= until) {
@@ -247,7 +249,8 @@ impl AxisWatch {
         here.within(reachable).is_some() && rests.any(|rest| here.within(rest).is_some())
     }
 
-    /// Expires, because an axis may report no further angle.
+    /// Returns `true` while a reading is outside the interval. The suspicion expires, because an
+    /// axis may report no further angle.
     pub(super) fn is_suspect(&self, now: Instant) -> bool {
         self.outside.is_some_and(|outside| now < outside.since + SWINGS_BACK + UNSEEN)
     }
@@ -332,7 +335,7 @@ impl AxisWatch {
         None
     }
 
-    /// Begins anew at a reading, whatever was known before.
+    /// Restarts the watch at a reading and discards the previous interval.
     fn begin(&mut self, angle_deg: f64, turns_deg: f64, at: Instant) {
         let deg = angle_deg + turns_deg;
         self.known = Some(Known { range: Range::about(deg, self.error_deg()), at, turns_deg });
@@ -344,7 +347,7 @@ impl AxisWatch {
         self.may_have_passed(at);
     }
 
-    /// Unseen, the axis may have gone past any end.
+    /// Records that the unseen axis may have passed the end of any motion.
     fn may_have_passed(&mut self, at: Instant) {
         for motion in &mut self.motions {
             (motion.led, motion.passed) = ([true; 2], [Some(at); 2]);
@@ -355,14 +358,14 @@ impl AxisWatch {
         let before = self.known.replace(Known { range, at, turns_deg });
         let gap = before.map(|before| at.saturating_duration_since(before.at));
         let deg = angle_deg + turns_deg;
-        // Between two readings it may have been further.
+        // Between two readings, the axis may have been further.
         let longest = before.map(|before| received.saturating_duration_since(before.at));
         let went_s = longest.unwrap_or_default().as_secs_f64() / 2.0;
         let went_deg = self.runs_past.most_deg_s() * went_s;
         for motion in &mut self.motions {
             motion.look(Some(range.widened(went_deg)), self.figures.arrives_within_deg, at);
         }
-        // Nobody knows what it did meanwhile.
+        // The motion of the axis during the gap is unknown.
         if let Some(turned) = self.turned.as_mut().filter(|_| gap.is_some_and(|gap| gap > UNSEEN)) {
             (turned.from_deg, turned.at) = (deg, Some(at));
             self.rate_from = Some((deg, at));
@@ -384,7 +387,7 @@ impl AxisWatch {
                 note_start(&mut self.dead_time, at.saturating_duration_since(sent));
             }
             self.turned = Some(Turned { from_deg: deg, at: Some(at), is_up });
-            // It hunts.
+            // The axis hunts around its target.
             for motion in self
                 .motions
                 .iter_mut()
@@ -396,14 +399,14 @@ impl AxisWatch {
         }
     }
 
-    /// Returns `true` if a motion drives the axis in this direction at `deg`. Past its end the axis may
-    /// only coast.
+    /// Returns `true` if a motion drives the axis in this direction at `deg`. Beyond the end of the
+    /// motion, the axis may only coast.
     fn is_led(&self, is_up: bool, deg: f64, at: Instant) -> bool {
         let mut live = self.motions.iter().filter_map(|motion| motion.at(at));
         live.any(|motion| if is_up { motion.up_to_deg > deg } else { motion.down_to_deg < deg })
     }
 
-    /// Learns the rate between readings that are far enough apart, however often the axis is read.
+    /// Learns the rate from readings that are far enough apart, at any polling rate.
     fn measure_rate(&mut self, deg: f64, at: Instant, received: Instant) {
         let (from_deg, from) = *self.rate_from.get_or_insert((deg, at));
         let lasted = at.saturating_duration_since(from);
@@ -422,7 +425,7 @@ impl AxisWatch {
     fn learn(&mut self, deg: f64, drive: Drive, at: Instant) {
         if self.is_settled(at) {
             self.has_settled = true;
-            // A report that goes on is no other motion.
+            // A continuing report is no new foreign motion.
             self.is_told &= self.reported_since.is_some();
             if let Some(turned) = &mut self.turned {
                 turned.from_deg = deg;
@@ -439,7 +442,7 @@ impl AxisWatch {
         if !self.motions.last().is_some_and(|newest| newest.ends) {
             return;
         }
-        // A drive that obeys late is still on its way to an earlier end.
+        // A drive that obeys late is still turning to an earlier target.
         let live = || self.motions.iter().filter_map(|motion| motion.at(at));
         let up_to_deg = live().map(|motion| motion.up_to_deg).fold(f64::NEG_INFINITY, f64::max);
         let down_to_deg = live().map(|motion| motion.down_to_deg).fold(f64::INFINITY, f64::min);
@@ -459,7 +462,7 @@ impl AxisWatch {
         }
     }
 
-    /// The axis may have gone round since it was read.
+    /// Allows for a full turn of the axis since the last reading.
     fn lose_turns(&mut self) {
         for motion in &mut self.motions {
             motion.down_to_deg -= TURN_DEG;
@@ -468,7 +471,8 @@ impl AxisWatch {
         }
     }
 
-    /// An axis that stands where the newest motion ends has obeyed it, and gone one of two ways.
+    /// Removes the older motions once the axis stands at the end of the newest motion, and settles
+    /// on one of two possible paths.
     fn has_arrived(&mut self, deg: f64) {
         let Some(newest) = self.motions.last_mut().filter(|newest| newest.ends) else { return };
         let turns = ((deg - newest.up_to_deg) / TURN_DEG).round();
@@ -492,7 +496,7 @@ impl AxisWatch {
         self.has_settled || last.is_none_or(|last| last + DEAD_TIME + COASTS + shows < at)
     }
 
-    /// Largest error of a reading, with half of the sway, degrees.
+    /// Returns the max error of a reading, with half of the sway, degrees.
     fn error_deg(&self) -> f64 {
         self.spread.error_deg(self.figures.resolution_deg) + self.figures.sway_deg / 2.0
     }
@@ -501,7 +505,7 @@ impl AxisWatch {
         self.error_deg() * 2.0
     }
 
-    /// The turns to add to a reading so that it fits best.
+    /// Returns the turns to add to a reading for the best fit, degrees.
     fn turns_deg(&self, angle_deg: f64, known: Known, reachable: Range) -> f64 {
         if !self.figures.wraps {
             return known.turns_deg;
@@ -517,8 +521,8 @@ impl AxisWatch {
         best_deg.unwrap_or(known.turns_deg)
     }
 
-    /// How far it may run past the end of a motion, degrees: from its full rate, if it was sent
-    /// elsewhere.
+    /// Returns the max overshoot past the end of a motion, degrees: from the full rate after a
+    /// redirection.
     fn most_past_deg(&self, at: Instant) -> f64 {
         let is_redirected =
             self.redirected.is_some_and(|from| at <= from + DEAD_TIME + COASTS + LATE);
@@ -526,7 +530,7 @@ impl AxisWatch {
         if is_redirected { most_deg.max(self.runs_past.coasts_deg()) } else { most_deg }
     }
 
-    /// Where the axis can be at `at`.
+    /// Returns the possible range of the axis at `at`.
     fn reachable(&self, at: Instant) -> Option<Range> {
         let Known { range, at: since, .. } = self.known?;
         let elapsed_s = at.saturating_duration_since(since).as_secs_f64();

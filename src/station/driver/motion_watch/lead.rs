@@ -1,54 +1,54 @@
-//! Motions that may still turn an axis, and where they lead.
+//! Motions that may still turn an axis, and their leads.
 
 use std::time::Duration;
 
 use super::range::Range;
 use crate::clock::Instant;
 
-/// Longest time that an axis coasts.
+/// Max time for which an axis coasts.
 pub(super) const COASTS: Duration = Duration::from_secs(3);
 
-/// Where a motion leads an axis.
+/// Lead of a motion of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::driver) enum Lead {
-    /// To this angle, degrees as the mount counts.
+    /// Motion to this angle, degrees as the mount counts.
     To(f64),
-    /// To this angle by either way round, degrees as the mount counts.
+    /// Motion to this angle in either direction, degrees as the mount counts.
     EitherWay(f64),
-    /// By this many degrees from where the axis is.
+    /// Motion by this many degrees from the current angle.
     By(f64),
-    /// Up to an end of the travel: up or clockwise, or the other way.
+    /// Motion up to an end of the travel: up or clockwise, or in the opposite direction.
     ToEnd {
         is_up: bool,
     },
     Anywhere,
 }
 
-/// A motion that may still turn the axis.
+/// Motion that may still turn the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Live {
     pub(super) number: u64,
-    /// The axis turns no further down, or counter-clockwise, than this; infinite where it does not
-    /// turn that way at all.
+    /// Lowest angle, or furthest counter-clockwise, to which the axis turns, degrees; infinite if
+    /// it does not turn that way.
     pub(super) down_to_deg: f64,
     pub(super) up_to_deg: f64,
-    /// Its end is a position.
+    /// `true` if the end of the motion is a position.
     pub(super) ends: bool,
-    /// The unit may report this motion as a jog.
+    /// `true` if the unit may report this motion as a jog.
     pub(super) is_jog: bool,
-    /// It may lead there either way round.
+    /// `true` if the motion may take either direction.
     pub(super) either_way: bool,
-    /// It led up, or down, when it was sent: the axis may coast on that way.
+    /// Initial directions of the motion, down and up: the axis may coast in these directions.
     pub(super) led: [bool; 2],
-    /// When the axis was last not below its end, and not above: only then may it run past it downwards,
-    /// and upwards.
+    /// Last times at which the axis was at or above its end, and at or below it. Only then may it
+    /// run past the end downwards, and upwards.
     pub(super) passed: [Option<Instant>; 2],
-    /// A newer motion is obeyed by then.
+    /// Time by which the drive obeys a newer motion.
     pub(super) until: Option<Instant>,
 }
 
 impl Live {
-    /// Returns it as it is at `at`; `None` if it has come to rest by then.
+    /// Returns the state of the motion at `at`; `None` if the axis has come to rest before.
     pub(super) fn at(self, at: Instant) -> Option<Self> {
         let Some(until) = self.until.filter(|until| *until < at) else { return Some(self) };
         if until + COASTS < at {
@@ -62,7 +62,7 @@ impl Live {
         })
     }
 
-    /// Notes on which side of its end the axis is; `range`: `None` where that is not known.
+    /// Records on which side of the end the axis is; `range` is `None` if that is unknown.
     pub(super) fn look(&mut self, range: Option<Range>, arrives_deg: f64, at: Instant) {
         let [from_above, from_below] = &mut self.passed;
         if range.is_none_or(|range| range.to_deg >= self.down_to_deg - arrives_deg) {

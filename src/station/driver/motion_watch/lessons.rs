@@ -1,4 +1,4 @@
-//! Properties of an axis that are learned from its motions, as long as nobody else moves it.
+//! Properties of an axis that Azel learns from its motions, while nobody else moves it.
 
 use std::time::Duration;
 
@@ -7,49 +7,48 @@ use crate::{
     contract::driver::lessons::{AtRest, DeadTime, LENGTHS_DEG, PastEnds, RUNS_PAST_DEG, STARTS},
 };
 
-/// Longest time from a command until the drive obeys it.
+/// Max time from a command until the drive obeys.
 pub(super) const DEAD_TIME: Duration = Duration::from_secs(2);
-/// A drive may run for so long at least, seconds.
+/// Min allowance for an overshoot, seconds at the fastest rate.
 const RUNS_S: f64 = 0.45;
-/// No axis turns faster, degrees a second.
+/// Max rate of any axis, degrees a second.
 pub(super) const FASTEST_DEG_S: f64 = 30.0;
-/// Without lessons: seconds at the fastest rate that an axis runs past the end of a motion.
+/// Default overshoot past the end of a motion without lessons, seconds at the fastest rate.
 const COASTS_S: f64 = 2.7;
-/// A rate is taken between readings this far apart at least.
+/// Min time between two readings for a rate.
 pub(super) const RATE_APART: Duration = Duration::from_secs(1);
-/// A motion may run past its end by this many times as much as those before.
+/// Factor between the max overshoot of a motion and the observed overshoots.
 const MARGIN: f64 = 2.5;
-/// The length of a motion counts for as long as this, and up to twice as long.
+/// Min time for which the length of a motion counts; the max time is twice as long.
 const WINDOW: Duration = Duration::from_secs(10);
-/// Further starts may take this much longer, besides a quarter.
+/// Extra dead time allowed for further starts, in addition to a quarter of the longest.
 const SPARE: Duration = Duration::from_millis(200);
-/// Noise beyond half a step is no more than this until the readings have shown less, and at most,
-/// degrees.
+/// Default noise beyond half a step until the readings have shown less, and max noise, degrees.
 const NOISE_DEG: f64 = 0.35;
 const MAX_NOISE_DEG: f64 = 1.0;
-/// Places at which it must have been seen to stand.
+/// Min number of observed resting places.
 const PLACES: u8 = 6;
-/// Readings of a standing axis that show its noise.
+/// Number of readings of a standing axis that show its noise.
 const READINGS: u16 = 20;
-/// Further readings may differ by this many times as much.
+/// Factor by which further readings may differ more.
 const SPREADS: f64 = 1.3;
 
-/// How far an axis runs past the end of its motion.
+/// Overshoot of an axis past the end of its motion.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct RunsPast {
     pub(super) known: PastEnds,
-    /// Each motion replaces the one before on its way.
+    /// `true` if each motion replaces an unfinished one.
     are_steps: bool,
-    /// How far it has run past the present end, degrees.
+    /// Overshoot past the current end, degrees.
     past_deg: f64,
-    /// Length of the longest motion whose end was not reached yet, degrees.
+    /// Length of the longest motion without a reached end, degrees.
     way_deg: f64,
-    /// The longest such way in this window and in the one before, degrees.
+    /// Length of the longest such motion in this window and in the previous window, degrees.
     left_deg: [f64; 2],
     since: Option<Instant>,
-    /// An end was reached in this window.
+    /// `true` if the axis reached an end in this window.
     has_reached: bool,
-    /// A motion went out since the last window that counts.
+    /// `true` if Azel sent a motion since the last window that counts.
     was_commanded: bool,
 }
 
@@ -58,12 +57,12 @@ impl RunsPast {
         Self { known, ..Self::default() }
     }
 
-    /// Takes a reading; `is_there`: near the end of the motion.
+    /// Takes a reading; `is_there` is `true` near the end of the motion.
     pub(super) fn look(&mut self, is_there: bool, at: Instant) {
         let left_deg = self.way_deg;
         if is_there {
             self.way_deg = 0.0;
-            // Only an axis that comes back has run past the end by itself.
+            // Only an axis that comes back has overshot without another motion.
             let (class, past_deg) = (self.class(), std::mem::take(&mut self.past_deg));
             if let Some(seen_deg) = self.known.seen_deg.get_mut(class) {
                 *seen_deg = seen_deg.max(past_deg);
@@ -73,7 +72,7 @@ impl RunsPast {
         self.has_reached |= is_there;
         if at.saturating_duration_since(since) > WINDOW {
             let class = self.class();
-            // An axis that hunts about one end shows only once how far it runs past an end.
+            // An axis that hunts around one end proves its overshoot only once.
             let shows = std::mem::take(&mut self.has_reached) && self.was_commanded;
             if let Some(windows) = self.known.windows.get_mut(class).filter(|_| shows) {
                 *windows = windows.saturating_add(1);
@@ -87,10 +86,11 @@ impl RunsPast {
         self.left_deg = [now_deg.max(left_deg), before_deg];
     }
 
-    /// A motion of this length goes out; `are_steps`: right after another one.
+    /// Records an outgoing motion of this length, degrees; `are_steps`: it follows right after
+    /// another motion.
     pub(super) fn commanded(&mut self, way_deg: f64, are_steps: bool) {
         (self.are_steps, self.was_commanded) = (are_steps, true);
-        // As long as the end was not reached, the axis may turn as fast as it does on a long way.
+        // Until the axis reaches the end, it may turn as fast as on a long path.
         self.way_deg = self.way_deg.max(way_deg);
         let [now_deg, before_deg] = self.left_deg;
         self.left_deg = [now_deg.max(self.way_deg), before_deg];
@@ -103,13 +103,13 @@ impl RunsPast {
         if self.are_steps { class + LENGTHS_DEG.len() } else { class }
     }
 
-    /// The axis has turned at this rate between two readings, degrees a second.
+    /// Records a rate between two readings, degrees a second.
     pub(super) fn turned(&mut self, rate_deg_s: f64) {
         self.known.fastest_deg_s = self.known.fastest_deg_s.max(rate_deg_s);
         self.known.turns = self.known.turns.saturating_add(1);
     }
 
-    /// The fastest that it turns, degrees a second.
+    /// Returns the max rate of the axis, degrees a second.
     pub(super) fn most_deg_s(&self) -> f64 {
         if self.known.knows_rate() {
             (self.known.fastest_deg_s * 1.3).min(FASTEST_DEG_S)
@@ -118,17 +118,17 @@ impl RunsPast {
         }
     }
 
-    /// The axis was read this far past the end, degrees.
+    /// Records a reading this far past the end, degrees.
     pub(super) fn past(&mut self, by_deg: f64) {
         self.past_deg = self.past_deg.max(by_deg);
     }
 
-    /// Somebody else has moved the axis.
+    /// Forgets the current overshoot after a foreign motion.
     pub(super) fn forget(&mut self) {
         self.past_deg = 0.0;
     }
 
-    /// How far it may run past the end of the present motion, degrees.
+    /// Returns the max overshoot past the end of the current motion, degrees.
     pub(super) fn most_deg(&self) -> f64 {
         if !self.known.knows_class(self.class()) {
             return self.coasts_deg();
@@ -136,19 +136,19 @@ impl RunsPast {
         (self.known.furthest_deg() * MARGIN).max(self.most_deg_s() * RUNS_S).min(RUNS_PAST_DEG)
     }
 
-    /// How far it may coast from its full rate, degrees.
+    /// Returns the max coasting distance from the full rate, degrees.
     pub(super) fn coasts_deg(&self) -> f64 {
         (self.most_deg_s() * COASTS_S).min(RUNS_PAST_DEG)
     }
 }
 
-/// Takes in that a command needed so long until the axis turned.
+/// Records the time from a command until the axis turned.
 pub(super) fn note_start(known: &mut DeadTime, lasted: Duration) {
     known.longest_s = known.longest_s.max(lasted.as_secs_f64());
     known.starts = known.starts.saturating_add(1);
 }
 
-/// Longest time until a command is obeyed.
+/// Returns the max time until the drive obeys a command.
 pub(super) fn max_dead_time(known: DeadTime) -> Duration {
     if known.starts < STARTS {
         return DEAD_TIME;
@@ -157,11 +157,11 @@ pub(super) fn max_dead_time(known: DeadTime) -> Duration {
     longest.saturating_add(SPARE).min(DEAD_TIME)
 }
 
-/// By how much readings of a standing axis differ.
+/// Spread of the readings of a standing axis.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Spread {
     pub(super) known: AtRest,
-    /// Lowest and highest reading since it stands, degrees, and their number.
+    /// Lowest and highest reading since the axis stands, degrees, and number of readings.
     now: Option<(f64, f64, u16)>,
     has_turned: bool,
 }
@@ -191,16 +191,17 @@ impl Spread {
         (self.now, self.has_turned) = (None, true);
     }
 
-    /// Returns the largest expected difference between two readings of a standing axis, degrees; `None`
-    /// until it has been measured.
+    /// Returns the largest expected difference between two readings of a standing axis, degrees;
+    /// `None` until it has been measured.
     pub(super) fn expected_deg(&self) -> Option<f64> {
         self.known.widest_deg.map(|widest_deg| (widest_deg * SPREADS).min(MAX_NOISE_DEG))
     }
 
-    /// Largest error of a reading, degrees, where the unit reports steps of `resolution_deg`.
+    /// Returns the max error of a reading, degrees, for a unit that reports steps of
+    /// `resolution_deg`.
     pub(super) fn error_deg(&self, resolution_deg: f64) -> f64 {
         let half_step_deg = resolution_deg / 2.0;
-        // Elsewhere the noise may reach one more step.
+        // At places not yet observed, the noise may reach one more step.
         let step_deg = if self.known.places < PLACES { half_step_deg } else { 0.0 };
         let seen_deg =
             self.known.widest_deg.map(|deg| (deg / 2.0 * SPREADS).max(deg / 2.0 + step_deg));

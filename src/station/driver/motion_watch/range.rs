@@ -1,6 +1,6 @@
-//! A range of angles of an axis.
+//! Range of angles of an axis.
 
-/// Degrees as the mount counts, without a jump at north.
+/// Range, degrees as the mount counts, without a jump at north.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Range {
     pub(super) from_deg: f64,
@@ -16,14 +16,14 @@ impl Range {
         Self { from_deg: self.from_deg - by_deg, to_deg: self.to_deg + by_deg }
     }
 
-    /// The part that both have; `None` where they are apart.
+    /// Returns the intersection; `None` if the ranges do not overlap.
     pub(super) fn within(self, other: Self) -> Option<Self> {
         let from_deg = self.from_deg.max(other.from_deg);
         let to_deg = self.to_deg.min(other.to_deg);
         (from_deg <= to_deg).then_some(Self { from_deg, to_deg })
     }
 
-    /// How far `deg` lies outside, degrees, with its sign; 0 inside.
+    /// Returns the signed distance of `deg` from the range, degrees; 0 inside.
     pub(super) fn off_deg(self, deg: f64) -> f64 {
         (deg - self.to_deg).max(0.0) + (deg - self.from_deg).min(0.0)
     }

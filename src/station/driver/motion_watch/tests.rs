@@ -1,4 +1,4 @@
-//! The watch over random axes. `AZEL_CASES` and `AZEL_SEED` as in `tests/safety_properties.rs`.
+//! Random tests of the watch. `AZEL_CASES` and `AZEL_SEED` work as in `tests/safety_properties.rs`.
 
 mod plant;
 
@@ -8,7 +8,7 @@ use self::plant::{Kind, Order, Plant, STEP_S};
 use super::*;
 use crate::driver::dice::Dice;
 
-/// Cases and the first seed: of the environment, or `cases` and the usual one.
+/// Returns the seeds: from the environment, or `cases` seeds from the default seed.
 fn cases(cases: u64) -> std::ops::Range<u64> {
     let read = |name: &str| std::env::var(name).ok()?.parse().ok();
     let first = read("AZEL_SEED").unwrap_or(1);
@@ -28,24 +28,24 @@ impl Kind {
     }
 }
 
-/// An axis, the session that reads and commands it, and the watch.
+/// Axis, with the watch and the session that reads and commands it.
 struct Scene {
     plant: Plant,
     watch: MotionWatch,
     dice: Dice,
     began: Instant,
-    /// When the question went out, and when its answer is measured and received, seconds.
+    /// Send time of the query, with measurement and receive times of its answer, seconds.
     question: Option<(f64, f64, f64)>,
     reading: Option<f64>,
     next_s: f64,
-    /// Answers to motions come at these times, or never.
+    /// Times of the answers to motions; some answers never come.
     answers: Vec<(f64, bool)>,
-    /// There is no link until then.
+    /// End of the time without a link, seconds.
     away_until_s: f64,
     still_s: f64,
     stops: bool,
     found: Vec<(f64, Evidence)>,
-    /// The unit says that the axis turns.
+    /// `true` if the unit reports a turning axis.
     is_flagged: bool,
 }
 
@@ -72,7 +72,7 @@ impl Scene {
         }
     }
 
-    /// Only what was learned of the axis is kept.
+    /// Restarts the watch, which keeps only the lessons about the axis.
     fn restarts(&mut self) {
         let figures = self.plant.kind.figures();
         self.watch = MotionWatch::new([figures; 2], &self.watch.lessons());
@@ -91,7 +91,7 @@ impl Scene {
         let now = self.now();
         let lead = match order {
             Order::To(deg) if self.plant.kind.wraps => {
-                // The unit counts as the station does, and the reading tells the turn.
+                // The unit counts like the station, so the reading contains the full turns.
                 let reads_deg = self.plant.deg.rem_euclid(360.0);
                 let deg = deg - (self.plant.deg - reads_deg);
                 Some(Lead::EitherWay(deg))
@@ -152,7 +152,7 @@ impl Scene {
         if let Some(foreign) = self.watch.take([Some(reading), None]) {
             self.found.push((now_s, foreign.evidence));
         }
-        // Readings prove standstill.
+        // Equal readings prove standstill.
         if self.stops && now_s - asked_s + 1.0 < self.still_s {
             self.stops = false;
             let proved = self.at(now_s);
@@ -213,7 +213,7 @@ impl Scene {
         (target_deg, rate_deg_s)
     }
 
-    /// One of the things that an operator or a program has the axis do.
+    /// Makes the axis do one random action of an operator or a program.
     fn any_deed(&mut self) {
         match self.dice.below(7) {
             0 => self.seconds(30.0),
@@ -237,7 +237,7 @@ impl Scene {
                 self.track(seconds);
             }
             5 => {
-                // Sent elsewhere on the way.
+                // Send a new target before the axis arrives.
                 let (deg, other_deg) = (self.any_deg(), self.any_deg());
                 self.send(Order::To(deg));
                 let after_s = self.dice.between(0.0, 10.0);
@@ -275,7 +275,7 @@ fn an_axis_that_only_its_commands_move_is_nobody_elses() {
     assert!(failed.is_empty(), "{} failed: {failed:?}", failed.len());
 }
 
-/// Somebody turns the axis and holds it for three seconds at least.
+/// Push: somebody turns the axis and holds it for at least three seconds.
 struct Push {
     by_deg: f64,
     rate_deg_s: f64,
@@ -294,7 +294,7 @@ impl Push {
         }
     }
 
-    /// Returns how long it took to be found, seconds.
+    /// Applies the push. Returns the time until the watch finds it, seconds.
     fn happens(
         self,
         scene: &mut Scene,
@@ -341,7 +341,7 @@ fn one_that_is_pushed_at_rest_is_found_within_ten_seconds() {
         let (from_deg, push) = (scene.plant.deg, Push::any(&mut scene, way));
         scene.is_flagged = true;
         pushes += 1_usize;
-        // A drive that holds its position takes it back.
+        // A drive that holds its position turns the axis back.
         if push.happens(&mut scene, from_deg, 10.0, |_| ()).is_none() {
             missed.push(seed);
         }
@@ -350,12 +350,12 @@ fn one_that_is_pushed_at_rest_is_found_within_ten_seconds() {
     assert!(missed.len() * 100 <= pushes.max(100), "{missed:?}");
 }
 
-/// Pushes by more than `beyond_deg` that are missed in a track.
+/// Returns the seeds of pushes by more than `beyond_deg` that the watch misses in a track.
 fn missed_in_a_track(seeds: std::ops::Range<u64>, beyond_deg: f64) -> Vec<u64> {
     let is_missed = |seed: &u64| {
         let mut scene = Scene::new(*seed);
         scene.plant.kind.follows_well();
-        // On the days before.
+        // Let the watch learn for several days.
         for _ in 0..8 {
             scene.seconds(20.0);
             scene.any_slew();
@@ -368,7 +368,7 @@ fn missed_in_a_track(seeds: std::ops::Range<u64>, beyond_deg: f64) -> Vec<u64> {
         let (mut target_deg, rate_deg_s) = scene.track(60.0);
         let way = if scene.dice.chance(0.5) { 1.0 } else { -1.0 };
         let push = Push::any(&mut scene, way);
-        // Past every target that the drive may still go to.
+        // Push the axis beyond every target that the drive may still approach.
         let targets_deg = scene.plant.targets_deg().into_iter().chain([scene.plant.deg]);
         let furthest_deg = targets_deg.map(|deg| deg * way).fold(f64::MIN, f64::max) * way;
         let by_deg = furthest_deg + (push.by_deg.abs() + beyond_deg) * way - scene.plant.deg;
@@ -389,7 +389,7 @@ fn one_that_is_pushed_far_in_a_track_is_found_within_fifteen_seconds() {
     let pushes = seeds.end - seeds.start;
     let missed = missed_in_a_track(seeds, 15.0);
     println!("{} of {pushes} missed: {missed:?}", missed.len());
-    // Smaller ones hide in what a drive runs past its targets by itself.
+    // Smaller pushes hide in the normal overshoot of a drive.
     assert!(missed.len() as u64 * 100 <= pushes.max(100), "{missed:?}");
 }
 
@@ -424,7 +424,7 @@ fn a_unit_that_reports_a_jog_or_a_runaway_accuses_by_its_word() {
     assert_eq!(evidence(&[Drive::Runaway; 60]), [Evidence::Runaway], "once, however long it lasts");
     assert_eq!(evidence(&[Drive::Off, Drive::Jogged, Drive::Off, Drive::Jogged, Drive::On]), []);
 
-    // A jog of Azel, until it is proved to be over.
+    // Jog the axis until the end of the jog is proved.
     let mut watch = MotionWatch::new([figures; 2], &[AxisLessons::default(); 2]);
     assert_eq!(evidence_from(&mut watch, start, &[Drive::Off]), []);
     let later = start + Duration::from_secs(10);

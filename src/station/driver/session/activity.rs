@@ -1,4 +1,4 @@
-//! Activity of an antenna for the operator, and its progress.
+//! Activity of an antenna, as the operator sees it, and its progress.
 
 use std::time::Duration;
 
@@ -10,19 +10,19 @@ use crate::{
     device::{Motion, Pointing, TrackTarget},
 };
 
-/// Time within which an accepted command must show in the unit's state.
+/// Max time until an accepted command must show in the unit's state.
 const EFFECT: Duration = Duration::from_secs(5);
 
-/// One at a time: starting another ends the present one.
+/// Activity of an antenna. Only one runs at a time: a new activity ends the current one.
 pub(super) enum Activity {
     Standby,
     Manual,
-    /// Stands, ready for a direction. After program track it keeps what was tracked.
+    /// Rest until a new direction. After program track, the activity keeps its track.
     Hold(Option<Box<Tracking>>),
-    /// Goes to a direction and stays there.
+    /// Motion to a direction, where the antenna stays.
     GoTo(GoTo),
     OnBoardTrack(Box<OnBoardTrack>),
-    /// Azel commands one position after another.
+    /// Track for which Azel commands one position after another.
     ProgramTrack(Box<Tracking>),
 }
 
@@ -31,7 +31,7 @@ pub(super) struct GoTo {
     pub(super) slew: Slew,
 }
 
-/// A way to a direction, in one or more motions.
+/// Path to a direction, in one or more motions.
 #[derive(Clone, Copy)]
 pub(super) struct Slew {
     pub(super) aim: Option<Pointing>,
@@ -40,19 +40,19 @@ pub(super) struct Slew {
 
 #[derive(Clone, Copy)]
 pub(super) enum SlewStage {
-    /// Will be sent as soon as the antenna stands.
+    /// Pending motion, sent as soon as the antenna stands.
     Queued { motion: Motion, leg: Option<Leg> },
-    /// Under way; `begun` is when it was sent, or found under way.
+    /// Running motion; `begun` is the time of sending or discovery.
     UnderWay { begun: Instant, leg: Option<Leg> },
-    /// Has arrived, or ended short.
+    /// Ended motion, at its target or short of it.
     Over,
 }
 
-/// A motion to a position on the way.
+/// Motion to a position on the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Leg {
     pub(super) aim: Pointing,
-    /// The next motion; `None` once a lost link has ended the way there.
+    /// Next motion; `None` after a lost link ended the path at this position.
     pub(super) then: Option<Motion>,
 }
 
@@ -65,28 +65,29 @@ pub(super) struct OnBoardTrack {
 /// Progress towards the start of the unit's own program.
 #[derive(Clone, Copy)]
 pub(super) enum OnBoardStage {
-    /// The antenna is taken to where the unit will begin: the unit's own way there is not clear.
+    /// Motion of Azel to the start of the pass, because the unit's own path there is blocked.
     Slewing(Slew),
-    /// The target will be sent to the unit as soon as the antenna stands.
+    /// Pending target, sent to the unit as soon as the antenna stands.
     LoadQueued,
-    /// The target is being sent to the unit and read back.
+    /// Running transfer of the target to the unit, with a read-back.
     Loading { begun: Instant },
-    /// The unit holds the target; its program will be started as soon as the antenna stands.
+    /// Pending start: the unit has the target, and its program starts as soon as the antenna
+    /// stands.
     StartQueued,
-    /// Its program was started, but has not been seen running yet.
+    /// Start without an observed effect: the program has not been seen running yet.
     Starting { begun: Instant },
-    /// The unit has been seen tracking.
+    /// Observed track of the unit.
     Tracking,
 }
 
-/// Goes to the gate as soon as the antenna stands.
+/// Step that goes to the gate as soon as the antenna stands.
 pub(super) enum Queued {
     Motion(Motion),
     Load(TrackTarget),
 }
 
 impl OnBoardStage {
-    /// Returns `true` if the next thing sent is the target or the start of the unit's program.
+    /// Returns `true` if the session next sends the target or the start of the unit's program.
     pub(super) fn starts_program(self) -> bool {
         match self {
             Self::LoadQueued | Self::StartQueued => true,
@@ -108,7 +109,7 @@ impl Activity {
         }
     }
 
-    /// Returns `true` until the antenna has been seen doing it.
+    /// Returns `true` until the unit's state shows the activity.
     pub(super) fn is_pending(&self) -> bool {
         match self {
             Self::GoTo(go_to) => !matches!(go_to.slew.stage, SlewStage::Over),
@@ -117,12 +118,12 @@ impl Activity {
         }
     }
 
-    /// Returns `true` if it moves the antenna, or may do so at any time.
+    /// Returns `true` if the activity moves the antenna, or may do so at any time.
     pub(super) fn may_move(&self) -> bool {
         self.is_pending() || self.intent() == Intent::Track
     }
 
-    /// The direction it leads to, if that direction is fixed.
+    /// Returns the target direction, if it is fixed.
     pub(super) fn aim(&self) -> Option<Pointing> {
         match self {
             Self::ProgramTrack(track) => track.aim(),
@@ -130,7 +131,7 @@ impl Activity {
         }
     }
 
-    /// The way that it has to go, or has gone.
+    /// Returns the path of the activity, finished or not.
     pub(super) fn slew(&self) -> Option<&Slew> {
         match self {
             Self::GoTo(go_to) => Some(&go_to.slew),
@@ -181,7 +182,7 @@ impl Activity {
         }
     }
 
-    /// The program track that is running, or whose last pass is over.
+    /// Returns the program track that is running or has finished its last pass.
     pub(super) fn last_program(&self) -> Option<&Tracking> {
         match self {
             Self::ProgramTrack(track) | Self::Hold(Some(track)) => Some(track),
@@ -196,7 +197,7 @@ impl Activity {
         }
     }
 
-    /// After a halt that nobody pressed: the mode stays, and whatever ran in it ends.
+    /// Ends the current motion after a halt without an operator's STOP; the mode stays.
     pub(super) fn halt(&mut self) {
         *self = match self {
             Self::Manual => Self::Manual,
@@ -205,7 +206,7 @@ impl Activity {
         };
     }
 
-    /// Takes what waits for standstill; it counts as sent `now`.
+    /// Takes the step that waits for standstill, and counts it as sent at `now`.
     pub(super) fn take_queued(&mut self, now: Instant) -> Option<Queued> {
         if let Some(slew) = self.slew_mut() {
             let SlewStage::Queued { motion, leg } = slew.stage else { return None };
@@ -237,8 +238,7 @@ impl Activity {
         })
     }
 
-    /// After a lost link: what waits is not sent on the next link, but its outcome is still
-    /// reported.
+    /// Drops the pending step after a lost link, but still reports its outcome.
     pub(super) fn drop_queued(&mut self, now: Instant) {
         self.take_queued(now);
         if let Some(Slew { stage: SlewStage::UnderWay { leg: Some(leg), .. }, .. }) =
@@ -252,17 +252,17 @@ impl Activity {
 /// Outcome of a slew.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Arrival {
-    /// This motion is the next one.
+    /// Position on the path: this motion is next.
     Leg(Motion),
     At(Pointing),
-    /// The antenna stands elsewhere.
+    /// Stop short of the target.
     Short {
         aim: Pointing,
     },
 }
 
 impl Slew {
-    /// End of the motion that is under way, if one is.
+    /// Returns the end of the running motion, if any.
     pub(super) fn aim_under_way(&self) -> Option<Pointing> {
         match self.stage {
             SlewStage::UnderWay { leg, .. } => leg.map(|leg| leg.aim).or(self.aim),
@@ -270,7 +270,7 @@ impl Slew {
         }
     }
 
-    /// Returns `false` if its first motion leads to where the antenna stands.
+    /// Returns `false` if the first motion leads to the current position.
     pub(super) fn leads_on(&self, at: Pointing, within: Angle) -> bool {
         match self.stage {
             SlewStage::Queued { leg: Some(Leg { aim, .. }), .. } => {
@@ -282,8 +282,8 @@ impl Slew {
         }
     }
 
-    /// Compares the motion under way with a position that was asked for at `asked`, at which the
-    /// unit's flags said that the axes stand. `turned`: when the angles last changed.
+    /// Compares the running motion with a position requested at `asked`, at which the unit's flags
+    /// reported standstill. `turned`: time of the last change of the angles.
     pub(super) fn watch(
         &mut self,
         at: Pointing,
@@ -297,7 +297,7 @@ impl Slew {
         if asked <= begun {
             return None;
         }
-        // While its angles change the motion is not over, whatever the flags say.
+        // A motion continues while its angles change, even if the flags report standstill.
         let last_turn = turned.map_or(begun, |turned| turned.max(begun));
         let is_near = at.deviation(aim).is_some_and(|off| off <= within);
         let arrival = match leg {

@@ -1,19 +1,19 @@
-//! Auto-track that is to be off is owed to the unit, like a STOP: it is switched off until the
-//! unit has been read as one that does not start by itself.
+//! Debt of a disabled auto-track: the session disables auto-track until a reading proves that the
+//! unit does not start on its own.
 
 use std::time::Duration;
 
 use crate::{clock::Instant, device::AntennaState};
 
-/// A unit that still has auto-track on is told again after this time.
+/// Interval before Azel again asks a unit to disable auto-track.
 const AGAIN: Duration = Duration::from_secs(3);
 
-/// Progress of switching auto-track off.
+/// Progress of disabling auto-track.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct AutoTrackOff {
-    /// When the unit was last asked on this link to switch auto-track off.
+    /// Time of the last request on this link to disable auto-track.
     asked_at: Option<Instant>,
-    /// The operator knows that the unit does not switch it off.
+    /// `true` if the operator knows that the unit keeps auto-track enabled.
     is_reported: bool,
 }
 
@@ -21,14 +21,14 @@ pub(super) struct AutoTrackOff {
 pub(super) enum NextStep {
     Wait,
     SwitchOff,
-    /// The unit was read as off.
+    /// Proof: a reading shows auto-track off.
     Proved,
-    /// The unit was asked, and no report of it can show more.
+    /// Missing proof: Azel sent the request, but the unit cannot report auto-track.
     Unreadable,
 }
 
 impl AutoTrackOff {
-    /// `None` for a new link, on which nothing was asked.
+    /// Records the time of a request; `None` for a new link without a request.
     pub(super) fn asked(&mut self, at: Option<Instant>) {
         self.asked_at = at;
     }
@@ -37,10 +37,10 @@ impl AutoTrackOff {
         !std::mem::replace(&mut self.is_reported, true)
     }
 
-    /// Reads auto-track back, and asks the unit again where it is still on.
+    /// Evaluates the auto-track reading, and repeats the request if auto-track is still on.
     pub(super) fn next(&mut self, state: &AntennaState, now: Instant) -> NextStep {
         let asked_at = self.asked_at;
-        // A report from before the command shows nothing of its effect.
+        // A report from before the command cannot show its effect.
         let is_answer =
             |asked_at| state.measured.is_some_and(|measured| measured.requested > asked_at);
         let read = state.program.filter(|_| asked_at.is_some_and(is_answer));

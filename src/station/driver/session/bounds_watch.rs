@@ -1,4 +1,4 @@
-//! Compares measured positions with the bounds of the antenna, whoever drives it.
+//! Check of measured positions against the bounds of the antenna, for any operator.
 
 use super::Session;
 use crate::{
@@ -9,20 +9,20 @@ use crate::{
     plan::{Barrier, Clearance, Sweep},
 };
 
-/// An antenna that dips below its minimum elevation by no more than this, beyond its pointing
-/// tolerance, is left alone: a program ends there, and readings are rounded.
+/// Max tolerated dip below the minimum elevation, beyond the pointing tolerance, degrees: a program
+/// ends there, and units round their readings.
 const DIP_DEG: f64 = 0.5;
-/// Lower rates are those of a standing antenna, degrees a second.
+/// Min rate of a moving antenna, degrees a second.
 const SLOWEST_DEG_S: f64 = 0.02;
-/// A shorter way out is lost in the noise of the readings, degrees.
+/// Min length of a way out that exceeds the noise of the readings, degrees.
 const NOISE_DEG: f64 = 0.02;
 
-/// How certain it is that the antenna is inside a barrier.
+/// Certainty that the antenna is inside a barrier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Certainty {
-    /// Both angles are known.
+    /// Certainty from two known angles.
     Known,
-    /// It is inside at every possible angle.
+    /// Position inside at every possible angle.
     Inside,
     Unknown,
 }
@@ -46,13 +46,14 @@ impl Session {
         let bounds = self.bounds_now().at_time(now.utc).turned_by(self.gate.to_sky());
         let [from, to] = [here, there].map(|place| bounds.min_clearances(place));
         let is_known = intervals.unknown().is_none();
-        // An unknown angle is inside a barrier only if it is so wherever the axis may be.
+        // A position with an unknown angle is surely inside a barrier only if it is inside at every
+        // possible angle.
         let surely = (!is_known).then(|| bounds.holds_all_of(here));
-        // From anywhere in a range the search would hold up the other antennas of this thread.
+        // A search from every place in a range would delay the other antennas of this thread.
         let way_deg = |place| is_known.then(|| bounds.way_out_deg(place)).flatten();
         let ways_deg = [here, there].map(way_deg);
         for (index, (from, to)) in from.into_iter().zip(to).enumerate() {
-            // Where no single axis leads out, the depth inside each barrier counts.
+            // If no single axis leads out, compare the depths inside each barrier.
             let deeper_deg = match ways_deg {
                 [Some(here_deg), Some(there_deg)] => there_deg - here_deg,
                 _ => from.angle.degrees() - to.angle.degrees(),
@@ -77,7 +78,7 @@ impl Session {
         })
     }
 
-    /// Where the axes may be after `ahead_s` seconds at these rates.
+    /// Returns the possible positions of the axes after `ahead_s` seconds at these rates.
     fn reached(
         &self,
         intervals: Intervals,
@@ -121,11 +122,11 @@ impl Session {
         let is_inside = match certainty {
             Certainty::Known => here_deg < 0.0,
             Certainty::Inside => true,
-            // Where it may be inside already, the gate alone forbids or permits.
+            // If the antenna may be inside already, only the gate forbids or permits.
             Certainty::Unknown if here_deg < 0.0 => return,
             Certainty::Unknown => false,
         };
-        // A program slows down where its pass begins; the readings show whether it does.
+        // A program slows down at the start of its pass; the readings show whether it does.
         let ends_there = driver == Mover::Program && here.barrier == Barrier::MinimumElevation;
         let enters = is_moving && !is_inside && there_deg < 0.0 && !ends_there;
         let goes_deeper = is_inside && goes_deeper;
@@ -134,8 +135,8 @@ impl Session {
             self.observed.monitor.leave(&here.barrier);
             return;
         }
-        // Azel always stops its own requests, including on-board tracks: it started them, so the
-        // station's setting for other people's motions does not apply.
+        // Azel always stops its own motions, including on-board tracks. The station's setting
+        // applies only to motions of other people.
         let is_requested =
             driver == Mover::Azel || (self.commanded.activity.on_board().is_some() && !is_floor);
         let stops = (enters || goes_deeper)

@@ -1,12 +1,12 @@
-//! Notices that the computer's clock was set, or that the computer has slept.
+//! Detection of clock changes and sleep of the computer.
 
 use std::time::Duration;
 
 use crate::{astro::time::seconds_between, clock::Moment};
 
-/// Largest change between two looks of a clock that is kept right, seconds.
+/// Max difference between two comparisons of a correct clock, seconds.
 const STEP_S: f64 = 0.5;
-/// A shorter sleep is ignored.
+/// Min duration of a sleep that counts.
 const NAP: Duration = Duration::from_secs(1);
 
 #[derive(Debug, Clone, Copy)]
@@ -15,31 +15,30 @@ struct Clocks {
     asleep: Duration,
 }
 
-/// The clocks at the last comparison.
+/// Clock values at the last comparison.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ClockWatch {
     last: Option<Clocks>,
 }
 
-/// Difference between two looks at the clocks.
+/// Difference between two comparisons of the clocks.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ClockChange {
-    /// How long the steady clock ran between them.
+    /// Steady time between the comparisons.
     pub(super) steady: Duration,
-    /// By how much UTC was set, seconds.
+    /// Step of UTC, seconds.
     pub(super) stepped_s: Option<f64>,
-    /// How long the computer slept.
+    /// Duration of the computer's sleep.
     pub(super) slept: Option<Duration>,
 }
 
 impl ClockWatch {
-    /// Compares the clocks with the last look at them. `asleep`: how long the computer has slept
-    /// in all.
+    /// Compares the clocks with their last values. `asleep`: total sleep of the computer.
     pub(super) fn compare(&mut self, now: Moment, asleep: Duration) -> Option<ClockChange> {
         let before = self.last.replace(Clocks { at: now, asleep })?;
         let slept = asleep.saturating_sub(before.asleep);
         let steady = now.steady.saturating_duration_since(before.at.steady);
-        // The steady clock stands while the computer sleeps.
+        // The steady clock pauses while the computer sleeps.
         let expected_s = (steady + slept).as_secs_f64();
         let by_s = seconds_between(before.at.utc, now.utc) - expected_s;
         Some(ClockChange {

@@ -1,4 +1,4 @@
-//! The operator's commands to an antenna, and how the session carries them out.
+//! Operator commands to an antenna, and their execution by the session.
 
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ use crate::{
 };
 
 impl Session {
-    /// Carries out a command, and shows its answer if somebody waits for it.
+    /// Executes a command, and shows its answer if a sender waits for it.
     pub(super) fn carry_out_numbered(
         &mut self,
         numbered: Numbered,
@@ -44,8 +44,8 @@ impl Session {
     }
 
     pub(super) fn carry_out_now(&mut self, command: Command, now: Moment) {
-        // A jog is renewed many times a second and not logged. Settings are logged where they
-        // are written, without their values; a target by its name.
+        // Log no jog, because the window renews it many times a second. `write_settings` logs
+        // settings without their values; a target appears by its name.
         let quiet = matches!(
             command,
             Command::Jog { .. }
@@ -109,10 +109,10 @@ impl Session {
             Command::Act(act) => self.act(act, false, now),
             Command::ActUnseen(act) => self.act(act, true, now),
             Command::Connect => self.contact.want(Wanted::Yes),
-            // Handled by the loop.
+            // The I/O loop handles this command.
             Command::Disconnect => {}
         }
-        // Carried out first, so that the action does not wait for its log line.
+        // Execute first, so that the action does not wait for its log line.
         if let Some(command) = line {
             tracing::info!(antenna = self.setup.name(), ?command, "command");
         }
@@ -130,9 +130,9 @@ impl Session {
         }
     }
 
-    /// Ends what runs, for an activity in which nothing moves by itself.
+    /// Ends the current activity for a new one in which no motion starts on its own.
     pub(super) fn leave_for(&mut self, activity: Activity, now: Moment) {
-        // In Standby the unit must not move by itself either.
+        // In Standby, the unit must not start on its own either.
         let is_standby = matches!(activity, Activity::Standby);
         if self.may_move() || (is_standby && self.active()) {
             self.halt_quietly(now);
@@ -141,7 +141,7 @@ impl Session {
         self.commanded.activity = activity;
     }
 
-    /// Sends a motion through the gate. Returns `false` after reporting why it was refused.
+    /// Sends a motion through the gate. Returns `false` after reporting a refusal.
     pub(super) fn start(&mut self, motion: Motion, now: Moment) -> bool {
         let (intent, stopping) = (self.commanded.activity.intent(), self.stop.is_under_way());
         match self.gate.start(motion, intent, stopping, now) {
@@ -156,7 +156,7 @@ impl Session {
         }
     }
 
-    /// Checks the motion before it ends anything for it.
+    /// Starts a go-to. Checks the motion before ending the current activity.
     pub(super) fn go_to(&mut self, motion: Motion, intent: Intent, now: Moment) {
         let slew = match self.slew(motion, intent, now) {
             Ok(slew) => slew,
@@ -168,7 +168,7 @@ impl Session {
         self.commanded.activity = Activity::GoTo(GoTo { parks: intent == Intent::Park, slew });
     }
 
-    /// The way to the end of `motion`, not sent yet.
+    /// Returns the unsent path to the end of `motion`.
     pub(super) fn slew(
         &self,
         motion: Motion,
@@ -208,7 +208,7 @@ impl Session {
         };
         let unit = self.gate.state().on_board.clone();
         if !self.is_judged(watch.judge(), &[unit]) {
-            // Until it is taken over, the unit's track is watched as one of somebody else.
+            // Until Azel takes the unit's track over, watch it as a track of somebody else.
             self.observed.unasked = Some(watch);
             return self.wait_for_judgement(Command::TakeOver);
         }
@@ -228,9 +228,9 @@ impl Session {
             Activity::OnBoardTrack(Box::new(OnBoardTrack { target, watch, stage }));
     }
 
-    /// Sends what waited for a halt to end.
+    /// Sends the step that waited for the end of a halt.
     pub(super) fn start_queued(&mut self, now: Moment) {
-        // Offsets that the last track left would shift the next one.
+        // Remaining offsets of the last track would shift the next one.
         if self.stop.is_under_way() || self.takes_offsets_back() {
             return;
         }
@@ -239,7 +239,7 @@ impl Session {
         {
             let (judge, unit) =
                 (Arc::clone(track.watch.judge()), self.gate.state().on_board.clone());
-            // The unit may report something else since the command was judged.
+            // The unit's report may have changed since the judgement of the command.
             if !self.is_judged(&judge, &[unit]) {
                 return;
             }
@@ -257,15 +257,15 @@ impl Session {
         }
     }
 
-    /// The intent cannot be carried out, or is over: back to Standby, with the reason. A halt
-    /// ends what may be left of it.
+    /// Gives up the intent and returns to Standby with the reason. A halt ends any remaining
+    /// motion.
     pub(super) fn give_up(&mut self, reason: Event, now: Moment) {
         self.commanded.activity = Activity::Standby;
         self.halt_quietly(now);
         self.tell(reason);
     }
 
-    /// Carries out a command while there is no link.
+    /// Executes a command without a link.
     pub(super) fn carry_out_offline(&mut self, command: Command, now: Moment) {
         if self.lock_out_forbids(&command) {
             return;
@@ -274,14 +274,14 @@ impl Session {
             Command::WriteSettings(change) => {
                 self.gate.device().refuse_change(change, WriteError::NoLink, now);
             }
-            // A group is read once the link is back and somebody looks. The link itself shows
-            // that nothing can be asked. The I/O loop handles a disconnect.
+            // The session reads a group after the link is back, if the window shows it. The link
+            // state shows that no query is possible. The I/O loop handles a disconnect.
             Command::ReadGroup(_) | Command::Ask(_) | Command::Disconnect => {}
             Command::Preview(to) => self.commanded.preview = to,
             Command::Connect => self.contact.want(Wanted::Yes),
             Command::LockOut(lock_out) => self.lock_out(lock_out, now),
             Command::Unlock => self.unlock(),
-            // The link shows it; the keys are locked anyway.
+            // The link state shows the failure; the window locks the keys anyway.
             Command::Jog { rates_deg_s } => self.commanded.key.spend_rates(rates_deg_s),
             Command::EndJog => self.commanded.key.release(),
             Command::AllowUnguarded => self.stop.guard.allow_without(now.steady),
@@ -291,10 +291,10 @@ impl Session {
             Command::Resume => self.resume(),
             Command::Standby => self.leave_for(Activity::Standby, now),
             Command::AutoTrack(false) => self.end_auto_track(),
-            // The track would go on with the next link.
+            // The track would continue on the next link.
             Command::EndAtTarget => self.end_at_target(now),
             Command::FirstOffsets(offsets) => self.begin_with(offsets),
-            // The track goes on with the offsets that it has.
+            // The track continues with its current offsets.
             Command::Offset(_) => self.tell(Event::OffsetRefused(Refusal::PositionUnknown)),
             // Another motion ends the current one, so Azel owes it a STOP as soon as the link is
             // back. Azel refuses the new motion, because the unit's position is unknown.

@@ -1,4 +1,4 @@
-//! What was asked of an antenna from here, and how far that has come.
+//! State of the operator's requests to an antenna, and their progress.
 
 use super::{
     activity::{Activity, SlewStage},
@@ -10,20 +10,20 @@ use crate::{
     device::{Measured, MotionRequest, Pointing},
 };
 
-/// A step that may not be over yet.
+/// Step that may not be over yet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Step {
-    /// Signed amounts of the two axes, degrees.
+    /// Signed step sizes of the two axes, degrees.
     steps_deg: [f64; 2],
     begun: Instant,
 }
 
-/// A motion whose answer was lost.
+/// Motion with a lost answer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Doubt {
     pub(super) asked: MotionRequest,
     begun: Instant,
-    /// Angles of the two axes before it, degrees.
+    /// Angles of the two axes before the motion, degrees.
     pub(super) before_deg: Option<[f64; 2]>,
 }
 
@@ -31,11 +31,10 @@ pub(super) struct Commanded {
     pub(super) activity: Activity,
     pub(super) key: JogKey,
     step: Option<Step>,
-    /// An action of the make was requested from here, and standstill has not been proved
-    /// since.
+    /// `true` after an action of the make, until standstill is proved.
     acts: bool,
     doubt: Option<Doubt>,
-    /// The direction that the operator looks at.
+    /// Direction that the operator previews.
     pub(super) preview: Option<Pointing>,
 }
 
@@ -51,17 +50,17 @@ impl Commanded {
         }
     }
 
-    /// Returns `true` if it moves the antenna, or may do so at any time.
+    /// Returns `true` if a command moves the antenna, or may do so at any time.
     pub(super) fn may_move(&self) -> bool {
         self.activity.may_move() || self.key.pressed().is_some() || self.step.is_some()
     }
 
-    /// Returns `true` if a motion is out, or about to go out, that must show in the unit's state.
+    /// Returns `true` if a sent or queued motion must show in the unit's state.
     pub(super) fn is_pending(&self) -> bool {
         self.activity.is_pending() || self.key.pressed().is_some() || self.step.is_some()
     }
 
-    /// The party whose motion the antenna shows if it moves.
+    /// Returns the party that moves the antenna if it moves.
     pub(super) fn mover(&self, program_is_on: bool) -> Mover {
         let is_led = match &self.activity {
             Activity::ProgramTrack(_) => true,
@@ -82,7 +81,7 @@ impl Commanded {
         }
     }
 
-    /// A halt ends what moves. One that the operator pressed also ends a key that is still down.
+    /// Ends the current motion. A STOP by the operator also ends a key that is still down.
     pub(super) fn halt(&mut self, is_pressed: bool) {
         if is_pressed {
             self.key.spend();
@@ -93,7 +92,7 @@ impl Commanded {
         self.activity.halt();
     }
 
-    /// An action of the make was sent that moves.
+    /// Records a moving action of the make.
     pub(super) fn act(&mut self) {
         self.acts = true;
     }
@@ -106,7 +105,7 @@ impl Commanded {
         self.step = Some(Step { steps_deg, begun: now });
     }
 
-    /// Amounts of a step that may not be over yet, degrees.
+    /// Returns the sizes of a step that may not be over yet, degrees.
     pub(super) fn steps_deg(&self) -> Option<[f64; 2]> {
         self.step.map(|step| step.steps_deg)
     }
@@ -115,11 +114,11 @@ impl Commanded {
         self.step = None;
     }
 
-    /// A step is over when a state that was asked for after it shows standstill. `waits`: the
-    /// motion has not been sent or answered.
+    /// Ends a step when a state requested after it shows standstill. `waits`: the motion has not
+    /// been sent or answered.
     pub(super) fn follow_step(&mut self, measured: Option<Measured>, waits: bool) {
         let Some(Step { begun, .. }) = self.step else { return };
-        // A state from before the step shows the standstill before it.
+        // A state from before the step shows the earlier standstill.
         let stands =
             measured.is_some_and(|measured| measured.requested > begun && !measured.moving());
         if stands && !waits {
@@ -127,7 +126,7 @@ impl Commanded {
         }
     }
 
-    /// The answer to a motion was lost.
+    /// Records a motion with a lost answer.
     pub(super) fn doubt(
         &mut self,
         asked: MotionRequest,
@@ -141,9 +140,9 @@ impl Commanded {
         self.doubt.is_some()
     }
 
-    /// Takes the doubt that a state asked for after it can resolve.
+    /// Takes the doubt if a state requested after it can resolve it.
     pub(super) fn take_doubt(&mut self, measured: Option<Measured>) -> Option<Doubt> {
-        // An older state shows nothing of what the motion did.
+        // An older state cannot show the motion.
         let is_newer =
             |doubt: &mut Doubt| measured.is_some_and(|measured| measured.requested > doubt.begun);
         self.doubt.take_if(is_newer)

@@ -1,4 +1,4 @@
-//! The link to a unit: whether it is wanted, its state, and what is remembered while there is none.
+//! Link to a unit: its desired state, its current state, and the memory across outages.
 
 use std::time::Duration;
 
@@ -11,56 +11,56 @@ use crate::{
     station::Antenna,
 };
 
-/// A unit that answers in time answers within this time.
+/// Max delay of a reply from a healthy unit.
 const LATE_REPLY: Duration = Duration::from_secs(1);
-/// Noise that is older than this says nothing of a unit that is silent now.
+/// Max age of received noise that still explains a silent unit.
 const HEARD: Duration = Duration::from_secs(30);
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Wanted {
     No,
-    /// For a STOP only: the unit is let go again once standstill is proved.
+    /// Link only for a STOP: the session releases the unit once standstill is proved.
     ForStop,
     Yes,
 }
 
-/// How often a unit is asked, and how long it may be silent.
+/// Poll period and silence limit of a unit.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pace {
     pub(super) poll_period: Duration,
     pub(super) patience: Duration,
 }
 
-/// How the unit had been out of reach when it was read again.
+/// Outage of the unit before its first new reading.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Outage {
-    /// When a link that had been up was lost.
+    /// Time of the loss of an established link.
     pub(super) away_since: Option<Instant>,
-    /// How long the computer has slept meanwhile.
+    /// Sleep of the computer during the outage.
     pub(super) slept: Duration,
 }
 
-/// State of the link, and what is remembered while there is none.
+/// State of the link, and the memory across outages.
 pub(super) struct Contact {
     dial: Dial,
     wanted: Wanted,
     link: LinkState,
-    /// When a link that had been up was lost.
+    /// Time of the loss of an established link.
     away_since: Option<Instant>,
-    /// The operator knows of the lost link.
+    /// `true` if the operator knows of the lost link.
     loss_is_reported: bool,
-    /// The unit has not been read on this link yet.
+    /// `true` until the first reading on this link.
     unread: bool,
-    /// The unit's own program was on at the last reading.
+    /// `true` if the unit's own program was on at the last reading.
     program_was_on: bool,
-    /// How long the computer has slept since the unit was last read.
+    /// Sleep of the computer since the last reading of the unit.
     slept: Duration,
     pub(super) clocks: ClockWatch,
     pub(super) silence: Silence,
     pub(super) comparison: Comparison,
 }
 
-/// Returns the link that a new session wants, and the link state to show first.
+/// Returns the initial link request of a new session, and its initial link state.
 pub(super) fn first_link(antenna: &Antenna, now: Instant) -> (Wanted, LinkState) {
     let waits = antenna.connection.variant().capabilities.waits_for_word;
     if waits && !antenna.connects_at_start {
@@ -87,7 +87,7 @@ impl Contact {
         }
     }
 
-    /// Begins an attempt to connect.
+    /// Starts an attempt to connect.
     pub(super) fn dial(&mut self) -> Dialling {
         (self.dial)()
     }
@@ -108,7 +108,7 @@ impl Contact {
         self.link.is_open()
     }
 
-    /// The unit is left to others: an outage that comes later begins a new count.
+    /// Leaves the unit to others: a later outage starts a new count.
     pub(super) fn let_go(&mut self) {
         self.link = LinkState::Off;
         self.away_since = None;
@@ -123,17 +123,17 @@ impl Contact {
         self.link = LinkState::Up { start: now };
     }
 
-    /// There will be no link any more.
+    /// Closes the link finally.
     pub(super) fn close(&mut self) {
         self.link = LinkState::Off;
     }
 
-    /// The next loss is news again: the unit has replied on this link.
+    /// Records a reply on this link: the next loss is news again.
     pub(super) fn has_replied(&mut self) {
         self.loss_is_reported = false;
     }
 
-    /// The link is gone; the next attempt is at `retry_at`. Returns `true` if that is news.
+    /// Records a lost link; the next attempt is at `retry_at`. Returns `true` if the loss is news.
     pub(super) fn lose(
         &mut self,
         reason: LinkLoss,
@@ -145,21 +145,21 @@ impl Contact {
         if last_reply.is_some() {
             self.away_since.get_or_insert(lost_at);
         }
-        // Every attempt that fails loses the link again; only the first loss is news.
+        // Every failed attempt loses the link again; only the first loss is news.
         let is_news = !matches!(self.link, LinkState::Lost { .. }) && !self.loss_is_reported;
         self.loss_is_reported = true;
         self.link = LinkState::Lost { start: lost_at, reason, retry_at };
         is_news
     }
 
-    /// The next attempt is earlier.
+    /// Moves the next attempt to `at`.
     pub(super) fn retry_at(&mut self, at: Instant) {
         if let LinkState::Lost { retry_at, .. } = &mut self.link {
             *retry_at = at;
         }
     }
 
-    /// A link begins, on which the unit has not been read.
+    /// Starts a link on which the unit is still unread.
     pub(super) fn begin_link(&mut self) {
         self.unread = true;
     }
@@ -168,14 +168,14 @@ impl Contact {
         self.unread
     }
 
-    /// The unit was read for the first time on this link. The outage before it is over.
+    /// Records the first reading on this link, which ends the outage. Returns that outage.
     pub(super) fn read(&mut self, program_is_on: bool) -> Outage {
         self.unread = false;
         self.program_was_on = program_is_on;
         Outage { away_since: self.away_since.take(), slept: std::mem::take(&mut self.slept) }
     }
 
-    /// Returns `true` if the unit's own program has come on since the last reading.
+    /// Returns `true` if the unit's own program has started since the last reading.
     pub(super) fn program_has_started(&mut self, is_on: bool) -> bool {
         let was_on = std::mem::replace(&mut self.program_was_on, is_on);
         is_on && !was_on
@@ -185,8 +185,8 @@ impl Contact {
         self.slept += lasted;
     }
 
-    /// Follows the age of the last reply on a link that began at `start`. Returns why it counts as
-    /// lost.
+    /// Updates the link state from the age of the last reply on a link that began at `start`.
+    /// Returns the reason if the link counts as lost.
     pub(super) fn follow_age(
         &mut self,
         state: &AntennaState,
@@ -201,16 +201,16 @@ impl Contact {
         let age = now.saturating_duration_since(last);
         if age >= pace.patience {
             let is_unreadable = state.traffic.last_unreadable.is_some_and(|noise| {
-                // Not every try hears as much.
+                // Not every attempt hears as much noise.
                 let is_young = now.saturating_duration_since(noise) < HEARD;
                 noise > last || self.away_since.is_some_and(|away| noise > away && is_young)
             });
             return Some(if is_unreadable { LinkLoss::Unreadable } else { LinkLoss::Silent });
         }
-        // Any one reply may be lost, so one poll period without a reply is no trouble.
+        // A single reply may get lost, so one poll period without a reply is normal.
         let max_age = pace.poll_period * 2;
         let asked = state.measured_on_link().map(|measured| measured.requested);
-        // A position counts from its question, and may be as late as any reply.
+        // The age of a position starts at its query, and the reply may be late.
         let is_old = |asked| now.saturating_duration_since(asked) > max_age + LATE_REPLY;
         let is_late = age > max_age || asked.is_some_and(is_old);
         match (&self.link, is_late) {
@@ -225,12 +225,12 @@ impl Contact {
         None
     }
 
-    /// When the age of the last reply changes the state of the link.
+    /// Returns the time at which the age of the last reply changes the link state.
     pub(super) fn due(&self, state: &AntennaState, pace: Pace) -> Option<Instant> {
         let last = state.traffic.last_reply.max(state.link_since)?;
         let asked = state.measured_on_link().map(|measured| measured.requested + LATE_REPLY);
         let wait = match self.link {
-            // A link is stale only beyond its limit: at the limit itself nothing would change.
+            // A link becomes stale only beyond its limit, not at the limit itself.
             LinkState::Up { .. } => pace.poll_period * 2 + Duration::from_millis(1),
             _ => return Some(last + pace.patience),
         };

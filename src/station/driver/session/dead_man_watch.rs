@@ -1,4 +1,4 @@
-//! Keeps the dead-man alive while a motion by hand is out.
+//! Upkeep of the dead-man during a manual motion.
 
 use super::Session;
 use crate::{
@@ -9,7 +9,7 @@ use crate::{
 impl Session {
     /// Arms the dead-man before a motion that only a STOP would end.
     pub(super) fn arm_dead_man(&mut self, now: Moment) -> Result<(), Refusal> {
-        // Such a unit ends a jog by itself when nobody renews it.
+        // Such a unit ends a jog without Azel unless the jog is renewed.
         if self.setup.can().ends_jogs {
             return Ok(());
         }
@@ -19,14 +19,14 @@ impl Session {
         if is_allowed { Ok(()) } else { Err(Refusal::Unguarded) }
     }
 
-    /// Beats while the lease holds or a halt is under way.
+    /// Sends a beat while the lease holds or a halt is under way.
     pub(super) fn beat(&mut self, now: Moment) {
         let (jog, stops) = (self.commanded.key.pressed(), self.stop.is_under_way());
         let may_move = jog.is_some() || stops;
         let lease_holds = jog.is_some_and(|jog| now.steady < jog.end());
         if !self.stop.guard.beat(may_move, lease_holds || stops, now.steady) {
-            // The child took this process for dead and sent STOP. The motion has ended, so Azel
-            // proves it.
+            // The child assumed a dead process and sent STOP. The motion has ended, so Azel proves
+            // standstill.
             self.halt(now);
             self.tell(Event::Safety(Safety::DeadManFired));
         }

@@ -1,5 +1,5 @@
-//! Finds motions without effect: the unit took the command, and the axis does not turn, or its
-//! sensor does not show it.
+//! Detection of motions without effect: the unit accepted the command, but the axis does not turn,
+//! or its sensor does not show it.
 
 use std::time::Duration;
 
@@ -10,10 +10,10 @@ use crate::{
     device::{AxisMotion, Capabilities, Measured},
 };
 
-/// Longest time from the command of a jog until it shows in the angles.
+/// Max time from a jog command until the angles show it.
 const JOG_SHOWS_AFTER: Duration = Duration::from_millis(1500);
 
-/// The angles of both axes since they last changed.
+/// Last change of the angle of each axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Effects {
     axes: [Effect; 2],
@@ -22,19 +22,19 @@ pub(super) struct Effects {
 
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Effect {
-    /// The last angle that differs from those before it, degrees, and when it was asked for.
+    /// Last changed angle, degrees, and its request time.
     changed: Option<(f64, Instant)>,
     expected_since: Option<Instant>,
-    /// The angle has changed since a motion became expected.
+    /// `true` if the angle has changed since the session expected a motion.
     has_turned: bool,
 }
 
 /// Motion expected of a working axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Expected {
-    /// It turns at this rate, degrees a second.
+    /// Motion at this rate, degrees a second.
     Rate(f64),
-    /// It turns at this rate, degrees a second, towards a position that is further away than the unit
+    /// Motion at this rate, degrees a second, towards a position beyond the distance that the unit
     /// may ignore.
     Approach(f64),
 }
@@ -45,24 +45,24 @@ pub(super) enum Requested {
     Nothing,
     Jog {
         rates_deg_s: [f64; 2],
-        /// The axes that stand at an end of the unit's own travel and are jogged towards it.
+        /// Axes that stand at an end of the unit's own travel and are jogged towards it.
         is_at_end: [bool; 2],
     },
     Approach(Approach),
 }
 
-/// A motion to a position.
+/// Motion to a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Approach {
-    /// It ends there; otherwise it is one of many of a track.
+    /// `true` for a motion that ends at its position; `false` for one of many positions of a track.
     pub(super) is_slew: bool,
-    /// Where each axis was sent, degrees.
+    /// Target of each axis, degrees.
     pub(super) to_deg: [Option<f64>; 2],
-    /// Rates of the axes, degrees a second.
+    /// Expected rates of the axes, degrees a second.
     pub(super) rates_deg_s: [f64; 2],
-    /// The unit may turn the azimuth through north.
+    /// `true` if the unit may turn the azimuth through north.
     pub(super) may_turn_either_way: bool,
-    /// The azimuth axis reaches no direction twice but that of its ends.
+    /// `true` if the azimuth axis reaches no direction twice, except the direction of its ends.
     pub(super) has_one_turn: bool,
 }
 
@@ -80,20 +80,21 @@ impl Approach {
     }
 }
 
-/// Where an axis treats 0 and 360 degrees as the same position.
+/// Conditions under which an axis treats 0 and 360 degrees as the same position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Wraps {
     Never,
-    /// The unit can turn through north.
+    /// Unit that can turn through north.
     Always,
-    /// The axis cannot turn through north. It may come to rest so near one end that it reads the other.
+    /// Axis that cannot turn through north. It may come to rest so near one end that it reads the
+    /// other.
     AtRest {
         within_deg: f64,
     },
 }
 
 impl Wraps {
-    /// The way that is left to a position, degrees.
+    /// Returns the remaining distance to a position, degrees.
     fn way_deg(self, angle_deg: f64, to_deg: f64) -> f64 {
         let plain_deg = to_deg - angle_deg;
         let wrapped_deg = Angle::from_degrees(plain_deg).wrapped_180().degrees();
@@ -148,7 +149,7 @@ impl Effect {
 }
 
 impl Effects {
-    /// Returns `true`, once for each position.
+    /// Returns `true` once for each position.
     pub(super) fn is_new(&mut self, look: &Measured) -> bool {
         self.last_reading.replace(look.received) != Some(look.received)
     }
@@ -197,7 +198,7 @@ impl Effects {
         let mut expected = [None; 2];
         let axes = look.axes.iter().zip(self.axes).zip(rates_deg_s).zip(is_at_end);
         for (expected, (((axis, effect), rate), is_at_end)) in expected.iter_mut().zip(axes) {
-            // The unit itself ends a jog at its limits, which not every unit reports.
+            // The unit itself ends a jog at its limits, and some units do not report that.
             let is_ended = effect.has_turned && axis.motion == AxisMotion::Still;
             let is_due = rate != 0.0 && !is_at_end && !is_ended;
             *expected = is_due.then_some(Expected::Rate(rate));
@@ -229,7 +230,7 @@ impl Effects {
             let Some((angle_deg, to_deg)) = axis.angle_deg.zip(to_deg) else { continue };
             let is_driven = axis.motion != AxisMotion::Still;
             let other_turns = turned_lately.get(1 - index) == Some(&true);
-            // One that stops on its way is reported as such, and the unit decides when to creep.
+            // A stop before the target is reported separately, and the unit decides when to creep.
             let may_rest = !is_driven && (other_turns || (approach.is_slew && effect.has_turned));
             let ignored_deg = if is_driven { 0.0 } else { can.effect.ignores_deg };
             let way_deg = approach.wraps(index, is_driven, can).way_deg(angle_deg, to_deg);
@@ -239,7 +240,7 @@ impl Effects {
         expected
     }
 
-    /// When an axis was last seen to turn.
+    /// Returns the time of the last observed turn of an axis.
     pub(super) fn last_change(&self) -> Option<Instant> {
         self.axes.iter().filter_map(|axis| Some(axis.changed?.1)).max()
     }

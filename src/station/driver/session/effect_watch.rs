@@ -1,4 +1,4 @@
-//! Stops motions that have no effect.
+//! Stop of motions without effect.
 
 use super::{
     Session,
@@ -13,7 +13,7 @@ use crate::{
 };
 
 impl Session {
-    /// Stops a motion that has no effect.
+    /// Stops a motion without effect.
     pub(super) fn watch_effect(&mut self, now: Moment) {
         let Some(look) = self.gate.state().measured else { return };
         if !self.observed.effects.is_new(&look) {
@@ -27,7 +27,7 @@ impl Session {
         }
     }
 
-    /// Stops a motion that has no effect, and reports it.
+    /// Stops a motion without effect, and reports it.
     pub(super) fn end_without_effect(&mut self, axis: Option<Name>, now: Moment) {
         if self.commanded.key.pressed().is_some() {
             self.commanded.key.spend();
@@ -38,9 +38,9 @@ impl Session {
         self.tell(Event::Safety(Safety::NoEffect { axis }));
     }
 
-    /// The motion of Azel that must show in the angles.
+    /// Returns the motion of Azel that must show in the angles.
     fn requested(&self, look: &Measured) -> Requested {
-        // A halt ends what was expected, and without a link no angle would show it.
+        // A halt ends the expected motion, and without a link no angle would show it.
         if self.stop.is_under_way() || !self.contact.is_open() {
             return Requested::Nothing;
         }

@@ -1,4 +1,4 @@
-//! The dead-man: stops a motion by hand if this process dies.
+//! Dead-man of a session: stops a manual motion if this process dies.
 
 use std::{io, path::PathBuf, time::Duration};
 
@@ -11,7 +11,7 @@ use crate::{
     },
 };
 
-/// How long the operator's permission stands in for a dead-man.
+/// Duration of the operator's permission to move without a dead-man.
 const ALLOWED: Duration = Duration::from_mins(1);
 
 #[derive(Debug)]
@@ -20,24 +20,24 @@ pub(super) struct Guard {
     program: Option<PathBuf>,
     line: GuardedLink,
     armed: Option<DeadMan>,
-    /// No child could be had the last time one was needed.
+    /// `true` if the last attempt to start a child failed.
     is_missing: bool,
-    /// Until then the operator allows motions by hand without one.
+    /// End of the operator's permission for manual motions without a dead-man.
     allowed_until: Option<Instant>,
 }
 
-/// The link, as a child can write to it.
+/// Link in the form in which a child can write to it.
 #[derive(Debug)]
 enum GuardedLink {
     Closed,
-    /// Its far end lives in this process and ends with it.
+    /// Link whose far end lives in this process and ends with it.
     InProcess,
-    /// A handle for the child, and the STOP bytes as they leave the lowest layer of the link.
+    /// Handle for the child, and the STOP bytes in the form of the lowest layer of the link.
     Open {
         link: Duplicate,
         stop: Vec<u8>,
     },
-    /// No handle can be had.
+    /// Link without a handle.
     Unavailable,
 }
 
@@ -47,7 +47,7 @@ impl Guard {
         Self { program, line, armed, is_missing: false, allowed_until: None }
     }
 
-    /// A link is open; `stop` holds the controller's STOP bytes.
+    /// Records an open link; `stop` contains the controller's STOP bytes.
     pub(super) fn link_up(&mut self, stream: &dyn Stream, stop: &[u8]) {
         self.line = match stream.duplicate() {
             Ok(None) => GuardedLink::InProcess,
@@ -56,7 +56,7 @@ impl Guard {
         };
     }
 
-    /// The link is let go: first the child, whose handle would keep the connection open.
+    /// Releases the link, but first the child, whose handle would keep the connection open.
     pub(super) fn link_down(&mut self) {
         self.disarm();
         self.line = GuardedLink::Closed;
@@ -68,12 +68,12 @@ impl Guard {
         }
     }
 
-    /// No child could be had the last time one was needed.
+    /// Returns `true` if the last attempt to start a child failed.
     pub(super) fn is_missing(&self) -> bool {
         self.is_missing
     }
 
-    /// Arms the dead-man, unless it is armed already.
+    /// Arms the dead-man unless it is already armed.
     pub(super) fn ensure_armed(&mut self, now: Instant) -> io::Result<()> {
         if self.armed.is_some() {
             return Ok(());
@@ -83,7 +83,7 @@ impl Guard {
         armed
     }
 
-    /// The operator allows motions by hand without a dead-man, for a minute.
+    /// Allows manual motions without a dead-man for a minute.
     pub(super) fn allow_without(&mut self, now: Instant) {
         self.allowed_until = Some(now + ALLOWED);
     }
@@ -92,8 +92,8 @@ impl Guard {
         self.allowed_until.is_some_and(|end| now < end)
     }
 
-    /// Beats, and ends the child when nothing can move any more. `lives`: the lease holds, or a
-    /// halt is under way. Returns `false` if the child has sent STOP.
+    /// Sends a beat, and ends the child when no motion is possible any more. `lives`: the lease
+    /// holds, or a halt is under way. Returns `false` if the child has sent STOP.
     pub(super) fn beat(&mut self, may_move: bool, lives: bool, now: Instant) -> bool {
         let Some(dead_man) = &mut self.armed else { return true };
         if !may_move {
@@ -107,7 +107,7 @@ impl Guard {
         true
     }
 
-    /// When the next beat is due.
+    /// Returns the time of the next beat.
     pub(super) fn due(&self) -> Option<Instant> {
         self.armed.as_ref().map(DeadMan::due)
     }
@@ -136,5 +136,5 @@ fn copy(link: &Duplicate) -> io::Result<Duplicate> {
     match *link {}
 }
 
-// A beat may be late by one turn of the loop.
+// A beat may be late by one iteration of the loop.
 const _: () = assert!(BEAT.as_millis() * 3 < 400);

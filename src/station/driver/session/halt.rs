@@ -1,4 +1,4 @@
-//! Stops the antenna, and proves that it stands.
+//! Halt of the antenna, and proof that it stands.
 
 use super::{Session, activity::Activity, standstill::Proof, stop::HaltLook};
 use crate::{
@@ -8,7 +8,7 @@ use crate::{
 };
 
 impl Session {
-    /// The operator wants everything to stand still. Never refused.
+    /// Stops everything on the operator's request. The gate never refuses a halt.
     pub(super) fn halt(&mut self, now: Moment) {
         self.commanded.activity = Activity::Standby;
         self.gate.device().disarm();
@@ -22,7 +22,7 @@ impl Session {
 
     fn begin_halt(&mut self, pressed: bool, now: Moment) {
         if !self.stop.is_under_way() {
-            // A repeated STOP finds the axes slowing down already, which shows no overrun.
+            // During a repeated STOP the axes already slow down, which shows no overrun.
             self.begin_overrun(now);
         }
         self.commanded.halt(pressed);
@@ -30,20 +30,20 @@ impl Session {
         self.void_shift();
         self.gate.halted();
         if pressed {
-            // After a STOP that somebody pressed nothing may start by itself. The halt at the end
-            // of a motion leaves auto-track as the operator set it.
+            // After an operator's STOP, no motion may start on its own. The halt at the end of a
+            // motion keeps the operator's auto-track setting.
             self.end_auto_track();
         }
         self.queue_halt(if pressed { Extent::Everything } else { Extent::Motion }, now);
         self.owed.debts().owe_stop();
         self.stop.begin(pressed, self.gate.device().halt_patience(), now.steady);
-        // Its bytes go out first, if there is a link.
+        // If a link is open, write the STOP bytes first.
         if !self.contact.is_open() {
             self.record_debt(now);
         }
     }
 
-    /// The bytes of a halt are the next to be written.
+    /// Queues the bytes of a halt as the next bytes to write.
     pub(super) fn queue_halt(&mut self, extent: Extent, now: Moment) {
         let bytes = self.gate.device().halt(extent, now);
         self.stop.queue(bytes);
@@ -52,7 +52,7 @@ impl Session {
         }
     }
 
-    /// Checks whether the antenna stands, and repeats the halt while it does not.
+    /// Checks whether the antenna stands, and repeats the halt until it does.
     pub(super) fn watch_halt(&mut self, now: Moment) {
         let is_open = self.contact.is_open();
         if !self.stop.has_bytes() || !is_open {
@@ -95,24 +95,24 @@ impl Session {
         }
     }
 
-    /// The operator has seen that it stands.
+    /// Accepts the operator's confirmation that the antenna stands.
     pub(super) fn accept_operator_standstill(&mut self) {
         tracing::warn!(antenna = self.setup.name(), "standstill by the operator's word");
-        // Flags of motion or a missing angle may keep the proof from coming for ever.
+        // Motion flags or a missing angle may prevent the proof for ever.
         self.stop.end_unproved();
         self.contact.silence.forget();
         self.owed.settle_stop();
         self.prove_still();
     }
 
-    /// Returns `true` if the unit's flags say that both axes are at rest.
+    /// Returns `true` if the unit's flags report both axes at rest.
     fn is_at_rest(&self) -> bool {
         let state = self.gate.state();
         state.measured.is_some_and(|measured| !measured.moving())
             && state.program.is_none_or(|program| !program.enabled)
     }
 
-    /// Reports an antenna that turns although its unit says that it stands.
+    /// Reports an antenna that turns although its unit reports standstill.
     pub(super) fn watch_rest(&mut self, _: Moment) {
         let is_at_rest = self.is_at_rest() && self.stop.has_run_out();
         let Some(look) = self.gate.state().measured else { return };
@@ -124,15 +124,15 @@ impl Session {
         }
     }
 
-    /// Remembers how fast the axes turn when a STOP goes out.
+    /// Records the rates of the axes when a STOP goes out.
     fn begin_overrun(&mut self, now: Moment) {
-        // Other motions than a jog may be slowing down already.
+        // Motions other than a jog may already slow down.
         let jog = self.commanded.key.started();
         let rates = jog.map(|_| self.observed.monitor.last_rates_deg_s());
         self.observed.overrun.begin(self.gate.state().measured.zip(rates), now.steady);
     }
 
-    /// Learns from a STOP that has ended.
+    /// Learns the overrun from a STOP that has ended.
     fn end_overrun(&mut self) {
         let Some(rest) = self.gate.state().measured else { return };
         let fastest_deg_s = self.setup.track_config().fastest_deg_s();
@@ -141,12 +141,12 @@ impl Session {
         }
     }
 
-    /// When the halt must be looked at again.
+    /// Returns the time of the next check of the halt.
     pub(super) fn halt_due(&self) -> Option<Instant> {
         self.stop.due(self.figures(), self.contact.is_open())
     }
 
-    /// The outline of the STOP button fades after a while.
+    /// Removes the outline of the STOP button after a while.
     pub(super) fn forget_old_stop(&mut self, now: Moment) {
         self.stop.forget_old(now.steady);
     }

@@ -1,4 +1,4 @@
-//! Ends motions of Azel when somebody else moves the antenna.
+//! End of Azel's motions when somebody else moves the antenna.
 
 use super::{Session, tracking::Tracking};
 use crate::{
@@ -12,8 +12,8 @@ impl Session {
         self.commanded.activity.program().is_some_and(Tracking::asks)
     }
 
-    /// Ends a motion of Azel on an antenna that somebody else has moved: two must not work against
-    /// each other.
+    /// Ends a motion of Azel on an antenna that somebody else has moved, because two operators must
+    /// not work against each other.
     pub(super) fn watch_hands(&mut self, now: Moment) {
         let Some(Foreign { axis, evidence }) = self.gate.look_for_hands(now) else { return };
         let axis = self.setup.axis_name(axis);

@@ -1,5 +1,4 @@
-//! An antenna in a forbidden direction: its way out, and the way to the Sun when that is
-//! meant.
+//! Antenna in a forbidden direction: its way out, and its path to the Sun if the operator wants it.
 
 use std::time::Duration;
 
@@ -12,13 +11,14 @@ use crate::{
     plan::{Barrier, Bounds, ProgramTrack, bounds::Budget},
 };
 
-/// How long the operator's permission lets it out.
+/// Duration of the operator's permission to leave a barrier.
 const ALLOWED: Duration = Duration::from_mins(1);
-/// Maximum number of ways to a refuge that are tried.
+/// Max number of paths to a refuge that Azel tries.
 const MAX_REFUGES: usize = 64;
 
 impl Session {
-    /// Finds the barrier that the antenna is inside of. The permission to leave ends outside.
+    /// Finds the barrier around the antenna. Ends the permission to leave once the antenna is
+    /// outside.
     pub(super) fn watch_place(&mut self, now: Moment) {
         let Some(look) = self.gate.state().measured else { return };
         if !self.observed.place.is_new(&look) {
@@ -27,14 +27,15 @@ impl Session {
         let Some(intervals) = self.gate.intervals() else { return };
         let axis = intervals.unknown();
         if let Some(place) = self.bounds_now().unread().cloned() {
-            // Bounds that could not be read forbid every place.
+            // Unreadable bounds forbid every place.
             self.observed.place.set(Some(Barrier::Unread(place)), None);
             return;
         }
         let bounds = self.bounds_now().at_time(now.utc).turned_by(self.gate.to_sky());
         let place = intervals.sweep();
         let barrier = match axis {
-            // Above the minimum elevation a known angle needs no permission to go on.
+            // With known angles, only keep-outs and the Sun count: the way up from below the
+            // minimum elevation needs no permission.
             None => bounds.may_forbid(place),
             Some(_) => bounds.may_be_inside(place),
         };
@@ -45,7 +46,7 @@ impl Session {
         }
     }
 
-    /// The bounds that apply to the present activity.
+    /// Returns the bounds that apply to the current activity.
     pub(super) fn bounds_now(&self) -> &Bounds {
         // Only program track may lead to the Sun.
         let intent = if self.commanded.activity.program().is_some() {
@@ -56,27 +57,27 @@ impl Session {
         self.gate.bounds_in(intent)
     }
 
-    /// Where it points, as its bounds see it.
+    /// Returns the direction of the antenna for the check of its bounds.
     fn direction(&self) -> Option<AzEl> {
         Some(self.gate.bounds().direction(self.gate.axes_deg()?))
     }
 
-    /// The operator allows it to be moved out by hand, for a minute.
+    /// Allows manual motions out of the barrier for a minute.
     pub(super) fn allow_way_out(&mut self, now: Moment) {
         self.gate.let_out(Some(now.steady + ALLOWED));
     }
 
-    /// Begins program track. It may lead to the Sun only where the operator has said so.
+    /// Starts program track. The track may lead to the Sun only with the operator's permission.
     pub(super) fn follow_as_agreed(
         &mut self,
         follow: ProgramTrack,
         leads_to_sun: bool,
         now: Moment,
     ) {
-        // The planner takes its bounds from the gate, so the agreement must stand before it plans.
+        // The planner takes its bounds from the gate, so set the permission before planning.
         let before = self.gate.lift_sun(leads_to_sun);
         let Err(not_followed) = self.follow(follow.clone(), now) else { return };
-        // The present track goes on as it was agreed.
+        // The current track continues with its own permission.
         self.gate.lift_sun(before);
         if let NotFollowed::Waits = not_followed {
             let follow = Box::new(follow);
@@ -88,8 +89,8 @@ impl Session {
         }
     }
 
-    /// Moves away from the Sun the shortest way that stays clear of it for its time ahead, or
-    /// to the park position if that is nearer.
+    /// Moves the shortest path to a direction that stays clear of the Sun for its time ahead, or to
+    /// the park position if that is nearer.
     pub(super) fn move_away(&mut self, now: Moment) {
         let has_elevation = self.setup.can().has_elevation();
         let to = |direction: AzEl| Motion::Position {
@@ -100,14 +101,14 @@ impl Session {
             return self.tell(Event::NotSent(Refusal::PositionUnknown));
         };
         let bounds = self.gate.bounds();
-        // The direction must be reached, and on a way without a corner.
+        // The antenna must reach the direction, on a path without a corner.
         let way = |direction: AzEl, intent: Intent, budget: &Budget| {
             let motion = self.gate.nearest(to(direction)).ok()?;
             let route = self.gate.route_within(motion, intent, budget, now).ok()?;
             Some((direction, route.then.is_none()))
         };
         let budget = Budget::default();
-        // Without an elevation axis it reaches only its own elevation.
+        // Without an elevation axis, the antenna reaches only its own elevation.
         let is_reached =
             |at: &AzEl| has_elevation || (at.elevation - here.elevation).degrees().abs() < 1e-6;
         let refuges = bounds.refuges(here, now.utc).filter(is_reached).take(MAX_REFUGES);

@@ -1,4 +1,4 @@
-//! The loop of a session: dial, talk, lose the link, dial again.
+//! I/O loop of a session: dials, talks, loses the link and dials again.
 
 use std::{io, time::Duration};
 
@@ -12,11 +12,11 @@ use crate::{
     driver::{Numbered, Stream},
 };
 
-/// Time limit for a connection to come up.
+/// Timeout of a connection attempt.
 pub(in crate::driver) const CONNECT: Duration = Duration::from_secs(3);
-/// Time limit for a link to take a few bytes.
+/// Timeout of writing a few bytes to a link.
 pub(in crate::driver) const WRITE: Duration = Duration::from_secs(1);
-/// Waits between attempts; the last one repeats.
+/// Pauses between attempts; the last pause repeats.
 const BACK_OFF: [Duration; 5] = [
     Duration::from_millis(500),
     Duration::from_secs(1),
@@ -25,12 +25,12 @@ const BACK_OFF: [Duration; 5] = [
     Duration::from_secs(8),
 ];
 
-/// Interval between attempts while a STOP is owed.
+/// Interval between attempts while Azel owes a STOP.
 pub(super) const STOP_RETRY: Duration = Duration::from_millis(250);
 pub(in crate::driver) const MIN_WAIT: Duration = Duration::from_millis(2);
 
 impl Session {
-    /// Runs until the handle is dropped; a jog is stopped before the end.
+    /// Runs until the owner drops the handle; stops a jog before the end.
     pub async fn run(mut self) {
         self.look_for_mark().await;
         let mut attempt = 0;
@@ -45,13 +45,14 @@ impl Session {
                     continue;
                 }
             }
-            // The session is over, or the unit was let go: then it waits for the next command.
+            // The session has ended, or the operator released the unit and the session waits for a
+            // command.
             if self.contact.wanted() != Wanted::No {
                 break;
             }
         }
         if self.stop.is_under_way() || self.commanded.key.pressed().is_some() {
-            // If the program is killed from here on, its next start must find the STOP on disk.
+            // If the program is killed from now on, its next start must find the owed STOP on disk.
             self.mark_debt().await;
             let now = self.now();
             self.halt_quietly(now);
@@ -63,8 +64,7 @@ impl Session {
         self.publish(now);
     }
 
-    /// Returns why the link was lost; `None` to end the session, or if no link is wanted any
-    /// more.
+    /// Returns the reason for the lost link; `None` if the session ends or needs no link any more.
     async fn connect_and_talk(&mut self, attempt: &mut usize) -> Option<LinkLoss> {
         let stream = match self.connect().await {
             Ok(Some(stream)) => stream,
@@ -74,12 +74,12 @@ impl Session {
         let before = self.gate.state().traffic;
         let end = self.talk(stream).await;
         let now = self.now();
-        // Counts what came right before the end, too.
+        // Include the bytes that arrived right before the end.
         self.gate.device().link_down(now);
         let after = self.gate.state().traffic;
         let has_replied = after.replies > before.replies;
         let end = match end {
-            // Such as a web server: it says something else and hangs up.
+            // The far end, such as a web server, sends other text and disconnects.
             Some(LinkLoss::Closed | LinkLoss::Broken(_))
                 if !has_replied && after.last_unreadable != before.last_unreadable =>
             {
@@ -107,7 +107,7 @@ impl Session {
         let mut dialling = self.contact.dial();
         let clock = self.clock.clone();
         let deadline = clock.now().steady + CONNECT;
-        // An address that does not answer must not hold up a STOP or a command.
+        // An unresponsive address must not delay a STOP or a command.
         loop {
             tokio::select! {
                 biased;
@@ -132,12 +132,12 @@ impl Session {
         let now = self.now();
         self.tell_silence_of_lost_link();
         let jogs = self.commanded.key.started().is_some();
-        // The key may still be down when the link is back. It must not start the motion again.
+        // The key may still be down when the link is back, but must not restart the motion.
         self.commanded.key.spend();
         if jogs {
             self.halt_quietly(now);
         }
-        // No motion goes out late: after an outage the antenna may be somewhere else.
+        // Send no motion late: after an outage, the antenna may be somewhere else.
         self.commanded.activity.drop_queued(now.steady);
         self.judging.drop_waiting();
         let clock = self.clock.clone();
@@ -148,7 +148,7 @@ impl Session {
         }
         loop {
             let now = self.now();
-            // A STOP cannot wait for a polite interval.
+            // A STOP must not wait for the normal interval.
             if self.stop.is_under_way() && retry_at > now.steady + STOP_RETRY {
                 retry_at = now.steady + STOP_RETRY;
                 self.contact.retry_at(retry_at);
@@ -191,7 +191,7 @@ impl Session {
             Input::Bytes(_) | Input::Lost(_) | Input::Time => {}
         }
         self.let_sleep(now);
-        // The link was wanted for a STOP only, and none is owed any more.
+        // The session needed the link only for a STOP and no longer owes one.
         if self.contact.wanted() == Wanted::ForStop && self.disconnect_after_stop() {
             return false;
         }
@@ -204,10 +204,10 @@ impl Session {
         self.halt(now);
     }
 
-    /// Talks until the link is lost; returns `None` to end the session.
+    /// Talks until the loss of the link; returns `None` to end the session.
     async fn talk(&mut self, stream: Box<dyn Stream>) -> Option<LinkLoss> {
-        // STOP bytes for the dead-man. When the link comes up the controller forgets this
-        // request.
+        // These are the STOP bytes for the dead-man. The controller forgets this request when the
+        // link comes up.
         let now = self.now();
         let stop = self.gate.device().halt(Extent::Everything, now);
         self.stop.guard.link_up(&*stream, &stop);
@@ -223,14 +223,14 @@ impl Session {
         self.gate.device().link_up(start);
         self.owed.auto_track_asked(None);
         drop(self.stop.take_bytes());
-        // The first bytes of a link are a STOP that is owed, before any question.
+        // An owed STOP goes out on a new link before any query.
         if let Some(extent) = self.stop.extent() {
             self.queue_halt(extent, start);
         }
         self.contact.begin_link();
         let mut hurries = false;
         loop {
-            // After a long wait a jog may be over that the controller would renew.
+            // After a long wait, a jog that the controller would renew may be over.
             let now = self.now();
             self.watch_jog(now);
             self.beat(now);
@@ -254,8 +254,8 @@ impl Session {
                 return None;
             }
             self.publish(now);
-            // The effects of the last bytes go out without a wait. A controller that is always
-            // due must not keep out the next command.
+            // Send the effects of the last bytes without a wait. A controller that is always due
+            // must not block the next command.
             hurries = !hurries && self.gate.device().due(now) <= now.steady;
             if hurries || self.stop.has_bytes() {
                 continue;
@@ -296,12 +296,12 @@ impl Session {
         }
     }
 
-    /// Sends halts first, then whatever the controller has to send.
+    /// Sends halts first, then the controller's output.
     pub(super) async fn send(
         &mut self,
         writer: &mut WriteHalf<Box<dyn Stream>>,
     ) -> Result<(), LinkLoss> {
-        // A STOP overtakes every question, and waits for no reply that the unit owes.
+        // A STOP overtakes every query, and waits for no pending reply.
         let bytes = self.stop.take_bytes();
         if !bytes.is_empty() {
             write(&self.clock, writer, &bytes).await?;
@@ -334,12 +334,12 @@ impl Session {
             .chain([due])
             .min();
         let (clock, judged) = (self.clock.clone(), self.judging.done());
-        // A deadline without effect must not spin.
+        // A deadline without effect must not cause a busy loop.
         let deadline = deadline.unwrap_or(due).max(now.steady + MIN_WAIT);
         tokio::select! {
             biased;
             turn = self.wires.next() => turn,
-            // Bytes come after commands: a unit that talks without end must not keep out a STOP.
+            // Read bytes after commands: a unit that sends without end must not block a STOP.
             read = reader.read(buffer) => match read {
                 Ok(0) => Input::Lost(LinkLoss::Closed),
                 Ok(count) => Input::Bytes(count),
@@ -370,7 +370,7 @@ async fn write(
     }
 }
 
-/// The operating system's message, without its number.
+/// Returns the operating system's message without its number.
 pub(in crate::driver) fn in_words(error: &io::Error) -> String {
     let text = error.to_string();
     let words = text.split(" (os error").next().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The lease of a jog: a jog lives only while the window renews it.
+//! Lease of a jog: a jog runs only while the window renews it.
 
 use std::time::Duration;
 
@@ -8,19 +8,19 @@ use super::{
 };
 use crate::{clock::Moment, contract::driver::Event};
 
-/// A jog that was not renewed for this long is over.
+/// Time after which a jog without renewal ends.
 pub const LEASE: Duration = Duration::from_millis(300);
-/// A jog needs a position younger than this.
+/// Max age of the position for a jog.
 const FRESH: Duration = Duration::from_secs(1);
 impl Session {
-    /// The key is down; called repeatedly while it stays down.
+    /// Handles a key press; the window calls this repeatedly while the key stays down.
     pub(super) fn hold_jog(&mut self, rates_deg_s: [f64; 2], now: Moment) {
         let end = now.steady + LEASE;
         if self.commanded.key.is_spent(rates_deg_s) {
             return;
         }
         if !self.commanded.key.renew(rates_deg_s, end) {
-            // Another direction or rate: stand still in between.
+            // A different direction or rate needs standstill first.
             if self.commanded.key.started().is_some() {
                 self.halt_quietly(now);
             }
@@ -41,8 +41,8 @@ impl Session {
         if self.stop.is_under_way() || self.commanded.key.pressed().is_none_or(Jog::is_started) {
             return;
         }
-        // The mark is requested before anything moves. If the program died in the jog, its next
-        // start would not know otherwise that the antenna turns.
+        // Request the mark before any motion. Without it, the next start after a crash would not
+        // know that the antenna turns.
         if !self.is_marked(now) || self.awaits_young_position(now) {
             return;
         }
@@ -59,7 +59,7 @@ impl Session {
                 self.commanded.key.start();
                 self.stop.forget();
             }
-            // A key that stays down tries again, but the reason is reported once.
+            // A held key retries, but the session reports the reason once.
             Err(refusal) => {
                 if self.commanded.key.is_first_refusal() {
                     self.tell(Event::NotSent(refusal));
@@ -68,8 +68,8 @@ impl Session {
         }
     }
 
-    /// Returns `true` while the jog waits for a position that lasts until the next one comes. The
-    /// gate judges the age of a position that does not come.
+    /// Returns `true` while the jog waits for a fresh position that stays valid until the next one.
+    /// The gate judges the age of a missing position.
     fn awaits_young_position(&mut self, now: Moment) -> bool {
         let asked = self.gate.state().measured.map(|measured| measured.requested);
         match asked.map_or(PositionWait::Over, |asked| {
@@ -84,7 +84,7 @@ impl Session {
         }
     }
 
-    /// Ends a jog that is no longer renewed, or whose position is too old.
+    /// Ends a jog without renewal, or with an outdated position.
     pub(super) fn watch_jog(&mut self, now: Moment) {
         let Some(jog) = self.commanded.key.pressed() else { return };
         let over = now.steady >= jog.end();

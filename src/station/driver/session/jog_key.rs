@@ -1,29 +1,29 @@
-//! The jog key that the operator holds down.
+//! Jog key that the operator holds down.
 
 use std::time::Duration;
 
 use crate::{clock::Instant, device::Motion};
 
-/// A jog starts at a position younger than this, or at one that was asked for after the key went
-/// down: the command and the next position may each be late by 300 ms before this one is too old.
+/// Max age of a position that starts a jog, unless Azel requested the position after the key press.
+/// The command and the next position may then each be 300 ms late.
 const YOUNG: Duration = Duration::from_millis(300);
-/// Longest time that a jog waits for its position. One reply may be lost, and Azel asks some units
-/// nothing for a second after that.
+/// Max time that a jog waits for its position. One reply may get lost, and Azel then queries some
+/// units only after a second.
 const PATIENCE: Duration = Duration::from_secs(3);
 
-/// A held jog key.
+/// Held jog key.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Jog {
     /// Signed rates of the two axes, degrees a second.
     rates_deg_s: [f64; 2],
     pressed_at: Instant,
-    /// A younger position has been asked for.
+    /// `true` after a request for a fresh position.
     has_asked: bool,
-    /// When the jog ends unless renewed.
+    /// End of the jog unless renewed.
     end: Instant,
-    /// The motion went through the gate.
+    /// `true` once the motion has passed the gate.
     is_started: bool,
-    /// The gate refused it, and the operator knows.
+    /// `true` once the gate has refused the motion and the operator knows.
     is_refused: bool,
 }
 
@@ -33,23 +33,23 @@ impl Jog {
         Motion::Jog { x_deg_s, y_deg_s }
     }
 
-    /// Signed rates of the two axes, degrees a second.
+    /// Returns the signed rates of the two axes, degrees a second.
     pub(super) fn rates_deg_s(&self) -> [f64; 2] {
         self.rates_deg_s
     }
 
-    /// When the jog ends unless renewed.
+    /// Returns the end of the jog unless renewed.
     pub(super) fn end(&self) -> Instant {
         self.end
     }
 
-    /// Returns `true` once the motion went through the gate.
+    /// Returns `true` once the motion has passed the gate.
     pub(super) fn is_started(&self) -> bool {
         self.is_started
     }
 }
 
-/// The operator's jog keys.
+/// State of the operator's jog keys.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct JogKey(State);
 
@@ -58,16 +58,16 @@ enum State {
     #[default]
     Up,
     Down(Jog),
-    /// A jog with these rates ended before its key came up. It needs a new press, or the same
-    /// key could move the antenna again after the window has frozen.
+    /// Ended jog with these rates and a key that is still down. A new jog needs a new press.
+    /// Otherwise the same key could move the antenna again after the window froze.
     Spent([f64; 2]),
 }
 
-/// Wait of a jog for a position that lasts until the next one comes.
+/// Wait of a jog for a position that stays valid until the next one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum PositionWait {
     Over,
-    /// Such a position must be requested.
+    /// Missing request: the session must request such a position.
     Ask,
     Wait,
 }
@@ -87,17 +87,17 @@ impl JogKey {
         }
     }
 
-    /// The jog that went through the gate.
+    /// Returns the jog that has passed the gate.
     pub(super) fn started(&self) -> Option<&Jog> {
         self.pressed().filter(|jog| jog.is_started)
     }
 
-    /// Returns `true` if the key of a jog that has ended is still down in this direction.
+    /// Returns `true` if an ended jog's key is still down in this direction.
     pub(super) fn is_spent(&self, rates_deg_s: [f64; 2]) -> bool {
         matches!(self.0, State::Spent(rates) if is_same_way(rates, rates_deg_s))
     }
 
-    /// Lengthens a jog with exactly these rates. Returns `false` if there is none.
+    /// Extends a jog with exactly these rates. Returns `false` if no such jog runs.
     pub(super) fn renew(&mut self, rates_deg_s: [f64; 2], end: Instant) -> bool {
         let jog = self.pressed_mut().filter(|jog| is_same_rate(jog.rates_deg_s, rates_deg_s));
         let is_renewed = jog.is_some();
@@ -118,19 +118,19 @@ impl JogKey {
         });
     }
 
-    /// The motion of the held key went through the gate.
+    /// Records that the motion of the held key has passed the gate.
     pub(super) fn start(&mut self) {
         if let Some(jog) = self.pressed_mut() {
             jog.is_started = true;
         }
     }
 
-    /// The gate has refused the motion of the held key. Returns `true` the first time.
+    /// Records that the gate refused the motion of the held key. Returns `true` the first time.
     pub(super) fn is_first_refusal(&mut self) -> bool {
         self.pressed_mut().is_some_and(|jog| !std::mem::replace(&mut jog.is_refused, true))
     }
 
-    /// The key is up.
+    /// Records the release of the key.
     pub(super) fn release(&mut self) {
         self.0 = State::Up;
     }
@@ -142,20 +142,20 @@ impl JogKey {
         }
     }
 
-    /// The key of a jog with these rates is still down, and must come up before the next one.
+    /// Records a held key with these rates that must be released before the next jog.
     pub(super) fn spend_rates(&mut self, rates_deg_s: [f64; 2]) {
         self.0 = State::Spent(rates_deg_s);
     }
 
-    /// Ends a jog; the same key may begin another.
+    /// Ends a jog; the same key may start another.
     pub(super) fn end(&mut self) {
         if let State::Down(_) = self.0 {
             self.0 = State::Up;
         }
     }
 
-    /// Judges the last position, which was asked for at `asked`. The gate judges the age of a
-    /// position that does not come.
+    /// Judges the last position, requested at `asked`. The gate judges the age of a missing
+    /// position.
     pub(super) fn wait_for_position(&mut self, asked: Instant, now: Instant) -> PositionWait {
         let Some(jog) = self.pressed_mut() else { return PositionWait::Over };
         let age = now.saturating_duration_since(asked);
@@ -170,13 +170,13 @@ impl JogKey {
     }
 }
 
-/// Returns `true` if two jogs turn the same axes the same way, at whatever rates.
+/// Returns `true` if two jogs turn the same axes in the same directions, at any rates.
 fn is_same_way(a: [f64; 2], b: [f64; 2]) -> bool {
     let way = |rate: f64| rate.partial_cmp(&0.0);
     a.map(way) == b.map(way)
 }
 
-/// A held key repeats exactly the same numbers.
+/// Compares the rates exactly, because a held key repeats the same numbers.
 fn is_same_rate(a: [f64; 2], b: [f64; 2]) -> bool {
     a.map(f64::to_bits) == b.map(f64::to_bits)
 }

@@ -1,4 +1,4 @@
-//! Carries out commands that wait for the judgement of a way.
+//! Commands that wait for the judgement of a path.
 
 use std::sync::Arc;
 
@@ -15,8 +15,8 @@ use crate::{
 };
 
 impl Session {
-    /// Returns `true` if the whole path of `judge` has been judged by each of these reports; else
-    /// sees to it that it will be.
+    /// Returns `true` if a worker has judged the whole path of `judge` for each of these reports;
+    /// otherwise requests the judgement.
     pub(super) fn is_judged(&mut self, judge: &Arc<Judge>, units: &[OnBoard]) -> bool {
         let open = self.gate.open_questions(judge, units);
         if open.is_empty() {
@@ -26,7 +26,7 @@ impl Session {
         false
     }
 
-    /// The way of a motion of a program track; sees to it that a detour will be looked for.
+    /// Returns the path of a motion of a program track; requests the search for a detour if needed.
     pub(super) fn route(&mut self, motion: Motion, now: Moment) -> Result<Route, Refusal> {
         let route = self.gate.route(motion, Intent::Track, now);
         if let Err(NoRoute::Open(question)) = &route {
@@ -35,7 +35,7 @@ impl Session {
         route.map_err(NoRoute::refusal)
     }
 
-    /// Carries `command` out again when the judgement is there that it needs.
+    /// Executes `command` again when its judgement has arrived.
     pub(super) fn wait_for_judgement(&mut self, command: Command) {
         if !self.judging.wait(command) {
             self.tell(Event::NotSent(Refusal::BeingJudged));
@@ -62,7 +62,7 @@ impl Session {
         }
     }
 
-    /// Takes an answer that is there, and carries out what has waited for it.
+    /// Takes an available answer, and executes the commands that waited for it.
     pub(super) fn watch_judging(&mut self, now: Moment) {
         match self.judging.poll() {
             Poll::Pending => return,

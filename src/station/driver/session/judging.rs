@@ -1,5 +1,5 @@
-//! Judges and plans ways off the driver's thread, which must never be held up: it serves all
-//! antennas, and STOP. The antenna waits until the answer is there.
+//! Judgement and planning of paths outside the driver thread, which serves all antennas and STOP
+//! and must never be delayed. The antenna waits for the answer.
 
 use std::{collections::VecDeque, sync::Arc};
 
@@ -20,20 +20,19 @@ use crate::{
     },
 };
 
-/// Number of judgements after which a command is refused whose unit keeps reporting something
-/// else.
+/// Max number of judgements of one command, for a unit whose reports keep changing.
 const MAX_TRIES: u8 = 3;
 
-/// Number of steps of an offset that wait; a key repeats them.
+/// Max number of pending offset steps; a held key repeats them.
 const MAX_WAITING: usize = 32;
 
-/// Work of a worker.
+/// Task of a worker.
 enum Question {
-    /// Are these paths of the unit's own program clear?
+    /// Question whether these paths of the unit's own program are clear.
     Paths(Vec<PathQuestion>),
-    /// Which path does a program track take?
+    /// Request for the path of a program track.
     Plan(Box<PathOrder>),
-    /// Which detour leads round the barriers?
+    /// Request for a detour round the barriers.
     Detour(Box<DetourQuestion>),
 }
 
@@ -47,10 +46,10 @@ pub(super) enum Answer {
 /// Progress of an answer.
 #[derive(Debug)]
 pub(super) enum Poll {
-    /// There is no question, or no answer yet.
+    /// Missing answer, or no question.
     Pending,
     Answer(Answer),
-    /// The worker has ended without an answer.
+    /// Worker that ended without an answer.
     Broken,
 }
 
@@ -72,16 +71,16 @@ impl Question {
 
 #[derive(Debug, Default)]
 pub(super) struct Judging {
-    /// One at a time, whatever is asked.
+    /// Current task; at most one runs at a time.
     running: Option<oneshot::Receiver<Answer>>,
-    /// An answer is there.
+    /// Notification of an available answer.
     is_done: Arc<Notify>,
-    /// A path for the command that waits for it.
+    /// Planned path for the waiting command.
     planned: Option<PlannedPath>,
-    /// Commands that wait for an answer. A halt ends the wait, and so does the next command that is
-    /// no further offset.
+    /// Commands that wait for an answer. A halt ends the wait, as does the next command except a
+    /// further offset.
     waiting: VecDeque<Command>,
-    /// Number of times that the first of them has waited.
+    /// Number of waits of the first command.
     tries: u8,
 }
 
@@ -94,15 +93,14 @@ impl Judging {
         Arc::clone(&self.is_done)
     }
 
-    /// Drops the commands that wait.
     pub(super) fn drop_waiting(&mut self) {
         self.waiting.clear();
         self.planned = None;
         self.tries = 0;
     }
 
-    /// Gives the planner of a command the path that was planned for it, if there is one. Returns the
-    /// order of a path that is still open and takes long. Fails once the target has decayed.
+    /// Passes the planned path to the planner of its command, if available. Returns the order of a
+    /// missing path that may need a detour. Fails once the target has decayed.
     pub(super) fn open_order(
         &mut self,
         planner: &mut Planner,
@@ -115,9 +113,9 @@ impl Judging {
         Ok(planner.path_order(now.utc, axes).filter(PathOrder::may_detour))
     }
 
-    /// Begins to work on the answer, unless the session awaits another one.
+    /// Starts a task unless another one is running.
     fn begin(&mut self, question: Question) {
-        // A question that finds no room is not lost: its command or track asks again.
+        // The question is not lost: its command or track asks again.
         if self.is_under_way() {
             return;
         }
@@ -128,7 +126,7 @@ impl Judging {
             let _ = send.send(question.answer());
             is_done.notify_one();
         };
-        // In a rehearsal no order may depend on threads.
+        // In a rehearsal, the order must not depend on threads.
         if is_in_place() {
             work();
         } else {
@@ -142,18 +140,17 @@ impl Judging {
         self.begin(Question::Paths(paths));
     }
 
-    /// Plans the path of a program track, unless a way is being judged.
+    /// Plans the path of a program track, unless a task is running.
     pub(super) fn plan(&mut self, order: PathOrder) {
         self.begin(Question::Plan(Box::new(order)));
     }
 
-    /// Looks for a detour, unless a way is being judged.
+    /// Searches for a detour, unless a task is running.
     pub(super) fn look_for(&mut self, question: Box<DetourQuestion>) {
         self.begin(Question::Detour(question));
     }
 
-    /// Keeps `command` until the judgement is there that it needs. Returns `false` for one that has
-    /// waited too often.
+    /// Keeps `command` until its judgement arrives. Returns `false` after too many waits.
     pub(super) fn wait(&mut self, command: Command) -> bool {
         if self.tries >= MAX_TRIES {
             self.tries = 0;
@@ -164,8 +161,8 @@ impl Judging {
         true
     }
 
-    /// Returns the command unless it has to wait behind others: steps of an offset add up. Any other
-    /// command takes the place of what waits.
+    /// Returns the command unless it must wait behind others: offset steps add up. Any other
+    /// command replaces the waiting ones.
     pub(super) fn take_turn(&mut self, command: Command) -> Option<Command> {
         let adds_up = matches!(command, Command::Offset(_)) && !self.waiting.is_empty();
         if adds_up && self.waiting.len() < MAX_WAITING {
@@ -178,7 +175,7 @@ impl Judging {
         Some(command)
     }
 
-    /// Keeps a path for the command that waits for it. Returns it if none waits.
+    /// Keeps a path for the waiting command. Returns the path if no command waits.
     pub(super) fn keep_plan(&mut self, planned: Box<PlannedPath>) -> Option<Box<PlannedPath>> {
         if self.waiting.is_empty() {
             return Some(planned);
@@ -187,7 +184,7 @@ impl Judging {
         None
     }
 
-    /// Looks for the answer.
+    /// Checks for the answer.
     pub(super) fn poll(&mut self) -> Poll {
         match self.running.as_mut().map(oneshot::Receiver::try_recv) {
             None | Some(Err(oneshot::error::TryRecvError::Empty)) => Poll::Pending,
@@ -196,17 +193,17 @@ impl Judging {
         }
     }
 
-    /// The answer was taken: the next question may begin.
+    /// Ends the task after its answer, so that the next one may start.
     pub(super) fn end(&mut self) {
         self.running = None;
     }
 
-    /// The next command that waited, unless another answer is awaited.
+    /// Takes the next waiting command, unless another task is running.
     pub(super) fn next_command(&mut self) -> Option<Command> {
         if self.is_under_way() { None } else { self.waiting.pop_front() }
     }
 
-    /// The command was carried out. One that awaits nothing more has no tries left to count.
+    /// Resets the number of waits after a command that awaits no further answer.
     pub(super) fn was_carried_out(&mut self) {
         if !self.is_under_way() {
             self.tries = 0;

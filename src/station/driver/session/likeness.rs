@@ -1,5 +1,5 @@
-//! Compares a unit after an outage with its earlier reports: somebody may have replaced it or
-//! changed its settings, or it may have lost its memory.
+//! Comparison of a unit after an outage with its earlier reports. Somebody may have replaced the
+//! unit or changed its settings, or the unit may have lost its memory.
 
 use std::time::Duration;
 
@@ -9,13 +9,13 @@ use crate::{
     device::{AntennaState, Offsets, Place},
 };
 
-/// How long a unit may take to report again what it reported before.
+/// Max time until a unit repeats its earlier reports.
 const READ_AGAIN: Duration = Duration::from_secs(15);
 
-/// Both ends of an axis, degrees; `None` where the unit does not report them.
+/// Both ends of an axis, degrees; `None` if the unit does not report them.
 type Ends = Option<(f64, f64)>;
 
-/// Description of a unit, as far as the unit reports it.
+/// Description of a unit by its own reports.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct Likeness {
     identity: Option<String>,
@@ -24,34 +24,33 @@ struct Likeness {
     travel_deg: [Ends; 2],
 }
 
-/// A unit that must be compared before a target is tracked on.
+/// Unit that Azel must compare before it resumes a track.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Recheck {
     pub(super) begun: Instant,
-    /// How long it was out of reach.
+    /// Duration of the outage.
     pub(super) lost: Duration,
 }
 
-/// Outcome of a comparison.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Compared {
-    /// The unit has not reported everything yet.
+    /// Incomplete reports of the unit.
     Pending,
     AsBefore,
     Unlike(Unlike),
 }
 
-/// Compares the unit with what it was like over the previous link.
+/// Comparison of the unit with its state on the previous link.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Comparison {
-    /// Looks of the unit when it was last read over the previous link.
+    /// State of the unit at its last reading on the previous link.
     left_as: Likeness,
-    /// The unit must still prove to be as before; a program track keeps this itself.
+    /// Pending comparison of the unit; a program track keeps its own.
     recheck: Option<Recheck>,
 }
 
 impl Comparison {
-    /// Remembers what the unit is like when its link goes.
+    /// Stores the state of the unit when its link ends.
     pub(super) fn remember(&mut self, state: &AntennaState) {
         self.left_as = Likeness::new(state);
     }
@@ -68,13 +67,13 @@ impl Comparison {
         self.recheck = None;
     }
 
-    /// Compares the unit, which reports again since `begun`.
+    /// Compares the unit, which has reported since `begun`.
     pub(super) fn compare(&self, state: &AntennaState, begun: Instant, now: Instant) -> Compared {
         let current = Likeness::new(state);
         let is_late = now.saturating_duration_since(begun) >= READ_AGAIN;
         match self.left_as.differs(&current) {
             None if self.left_as.is_whole(&current) => Compared::AsBefore,
-            // A unit that does not report what it did may have lost its memory.
+            // A unit that omits an earlier report may have lost its memory.
             None if is_late => Compared::Unlike(Unlike::Unread),
             None => Compared::Pending,
             Some(unlike) => Compared::Unlike(unlike),
@@ -92,10 +91,10 @@ impl Likeness {
         }
     }
 
-    /// Returns how `now` differs. A value that was not read before cannot differ.
+    /// Returns the difference of `now`. A value without an earlier reading cannot differ.
     fn differs(&self, now: &Self) -> Option<Unlike> {
         let moved = |(before, now): (Place, Place)| {
-            // The unit reports its place in steps, and may round it otherwise.
+            // The unit reports its place in steps, and may round it differently.
             let step_deg = before.step_deg + 1e-9;
             (before.latitude_deg - now.latitude_deg).abs() > step_deg
                 || (before.longitude_deg - now.longitude_deg).abs() > step_deg
@@ -116,7 +115,7 @@ impl Likeness {
         }
     }
 
-    /// Returns `true` if `now` has everything that was read before.
+    /// Returns `true` if `now` contains every earlier value.
     fn is_whole(&self, now: &Self) -> bool {
         let has = |before: bool, now: bool| !before || now;
         has(self.identity.is_some(), now.identity.is_some())

@@ -1,5 +1,5 @@
-//! A locked-out unit: it gets only questions and STOP, whoever asks. Before that, Azel stops it and
-//! keeps it from starting on its own.
+//! Locked-out unit: it receives only queries and STOP, from any requester. Before that, Azel stops
+//! the unit and keeps it from starting on its own.
 
 use super::{Session, activity::Activity, contact::Wanted, locking::LockStep};
 use crate::{
@@ -9,12 +9,12 @@ use crate::{
 };
 
 impl Session {
-    /// With a unit that may be locked out from the beginning.
+    /// Starts the session with a locked-out unit if `lock_out` is set.
     #[must_use]
     pub fn locked_out(mut self, lock_out: Option<LockOut>) -> Self {
         if let Some(lock_out) = lock_out {
             let now = self.now();
-            // Nobody takes the panel from the person who works on the unit.
+            // A query would take the panel from the person who works on the unit.
             if self.setup.can().waits_for_word {
                 self.contact.want(Wanted::No);
                 self.contact.close();
@@ -27,14 +27,14 @@ impl Session {
         self
     }
 
-    /// Locks the unit out. A motion is stopped first.
+    /// Locks the unit out after stopping its motion.
     pub(super) fn lock_out(&mut self, lock_out: LockOut, now: Moment) {
         if self.gate.lock_out().is_some() {
             self.gate.set_lock_out(Some(lock_out));
             return;
         }
         let may_move = self.may_move() || self.active() || self.is_unproved();
-        // A unit that was let go and not moved from here may be in somebody else's hands.
+        // Somebody else may control a released unit that Azel did not move.
         let is_left_to_others = self.contact.wanted() == Wanted::No && !self.is_unproved();
         if may_move && !is_left_to_others {
             self.halt(now);
@@ -45,15 +45,15 @@ impl Session {
         self.commanded.activity = Activity::Standby;
         self.put_lock_out(lock_out, now);
         self.leave_panel();
-        // Without a link nothing shows whether the unit would start on its own.
+        // Without a link, Azel cannot prove that the unit would not start on its own.
         let is_unseen = self.setup.can().has_program && !self.contact.is_open();
         if is_unseen && self.owed.locking.report() == LockStep::Report {
             self.tell(Event::LockOutUnproved);
         }
     }
 
-    /// Where a question would take the panel of the unit from the person who works on it, only
-    /// STOP is sent from now on.
+    /// Restricts the link to STOP if a query would take the panel of the unit from the person who
+    /// works on it.
     fn leave_panel(&mut self) {
         if self.setup.can().waits_for_word && self.contact.wanted() == Wanted::Yes {
             self.contact.want(Wanted::ForStop);
@@ -74,13 +74,13 @@ impl Session {
         self.owed.locking.is_under_way(self.stop.is_under_way())
     }
 
-    /// Returns `true` if the lock-out forbids the command, and tells the operator.
+    /// Returns `true` if the lock-out forbids the command, and informs the operator.
     pub(super) fn lock_out_forbids(&mut self, command: &Command) -> bool {
         let Some(lock_out) = self.gate.lock_out() else { return false };
         let refusal = match command.row().locked_out {
             LockedOut::Taken => None,
             LockedOut::Refused => Some(Refusal::from(lock_out)),
-            // Without a link nothing gets that far.
+            // Without a link, no such command reaches the gate.
             LockedOut::RefusedAtTheGate => {
                 let is_refused_here =
                     command.row().offline == Offline::Refused && !self.contact.is_open();

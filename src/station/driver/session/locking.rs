@@ -1,10 +1,10 @@
-//! Progress of a lock-out: the unit must be proved not to start on its own.
+//! Progress of a lock-out: a reading must prove that the unit does not start on its own.
 
 use std::time::Duration;
 
 use crate::{clock::Instant, device::AntennaState};
 
-/// Time limit until auto-track is read back as off.
+/// Timeout of reading auto-track back as off.
 const READ_BACK: Duration = Duration::from_secs(10);
 
 /// Progress of a lock-out, if the unit is locked out.
@@ -14,15 +14,16 @@ pub(super) struct Locking(Option<Progress>);
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Progress {
     begun: Instant,
-    /// The unit has a program that could start on its own.
+    /// `true` if the unit has a program that could start on its own.
     has_program: bool,
-    /// Auto-track was switched off on this link.
+    /// `true` if Azel disabled auto-track on this link.
     is_asked: bool,
-    /// The unit reported that it does not start on its own.
+    /// `true` if the unit's report proves that it does not start on its own.
     is_proved: bool,
-    /// It was proved once: since then the person who works on it may have switched it on.
+    /// `true` after the first proof: since then, the person who works on the unit may have enabled
+    /// auto-track.
     was_proved: bool,
-    /// The operator knows that it cannot be read back.
+    /// `true` if the operator knows about the missing proof.
     is_reported: bool,
 }
 
@@ -30,7 +31,7 @@ struct Progress {
 pub(super) enum LockStep {
     Wait,
     SwitchOff,
-    /// The operator must know that the unit may start on its own.
+    /// Report to the operator that the unit may start on its own.
     Report,
 }
 
@@ -55,8 +56,7 @@ impl Locking {
         self.0.is_some_and(|progress| !progress.is_proved || stops)
     }
 
-    /// Keeps the unit from starting on its own and checks it: once on each link, and not again
-    /// after it was proved.
+    /// Keeps the unit from starting on its own and checks it, once per link, until proved.
     pub(super) fn next(&mut self, state: &AntennaState, is_unread: bool, now: Instant) -> LockStep {
         let Some(progress) = self.0.as_mut().filter(|progress| progress.has_program) else {
             return LockStep::Wait;
@@ -90,7 +90,7 @@ impl Locking {
         }
     }
 
-    /// Reports once that the unit may start on its own.
+    /// Requests one report that the unit may start on its own.
     pub(super) fn report(&mut self) -> LockStep {
         let Some(progress) = &mut self.0 else { return LockStep::Wait };
         if std::mem::replace(&mut progress.is_reported, true) {

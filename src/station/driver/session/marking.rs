@@ -1,5 +1,5 @@
-//! The promise on disk that an antenna is moved by hand, or is owed a STOP: if this program ends
-//! before standstill is proved, the next start sends STOP first.
+//! Promise on disk that an operator moves an antenna manually, or that Azel owes it a STOP. If this
+//! program ends before standstill is proved, the next start sends STOP first.
 
 use std::time::Duration;
 
@@ -13,19 +13,19 @@ use crate::{
     promises::PromisedFile,
 };
 
-/// A slower disk must not keep the operator from moving the antenna.
+/// Max wait for the disk: a slower disk must not keep the operator from moving the antenna.
 pub(super) const MAX: Duration = Duration::from_millis(300);
-/// Interval at which the write is checked.
+/// Interval between two checks of the write.
 const LOOK: Duration = Duration::from_millis(2);
-/// Above this age the operator is asked: much may have been done at the antenna since.
+/// Max age of a mark that needs no question to the operator, seconds: later, the state of the
+/// antenna may have changed.
 const OLD_S: f64 = 600.0;
-/// Interval at which a session that still tries says so in its mark. The age of a mark counts from
-/// then.
+/// Interval at which a session with a pending STOP refreshes its mark. The age of a mark counts
+/// from the refresh.
 const REFRESH: Duration = Duration::from_mins(1);
-/// Interval at which a mark that the disk did not take is written again.
+/// Interval between retries of a mark that the disk refused.
 const AGAIN: Duration = Duration::from_secs(10);
 
-/// The mark of one antenna.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Marking(State);
 
@@ -33,32 +33,31 @@ pub(super) struct Marking(State);
 enum State {
     #[default]
     None,
-    /// An earlier run left it.
+    /// Mark of an earlier run.
     Found { begun: Option<Timestamp> },
-    /// Requested by this session.
+    /// Mark requested by this session.
     Put {
         begun: Option<Timestamp>,
         first: Instant,
-        /// The last request.
+        /// Time of the last request.
         last: Instant,
-        /// The operator knows that it is not on the disk.
+        /// `true` if the operator knows that the mark is not on disk.
         is_reported: bool,
     },
 }
 
-/// Progress of a mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Progress {
     Pending,
-    /// It is on the disk, or the operator knows that it is not.
+    /// Settled mark: it is on disk, or the operator knows that it is not.
     Settled,
-    /// The disk has refused it or is slow, and the operator does not know yet.
+    /// Refused or slow write that the operator does not know of yet.
     Failed,
 }
 
-/// Returns `true` for a mark about which the operator must be asked.
+/// Returns `true` for a mark that needs a question to the operator.
 pub(super) fn is_old(mark: Mark, now: Timestamp) -> bool {
-    // A mark from the future was written by a clock that was wrong, so its age is unknown.
+    // A wrong clock wrote a mark from the future, so its age is unknown.
     mark.last_tried().is_none_or(|at| seconds_between(at, now).abs() > OLD_S)
 }
 
@@ -67,7 +66,7 @@ impl Marking {
         Self(State::Found { begun })
     }
 
-    /// Follows the mark to the disk. Requests it if this session has not yet.
+    /// Follows the progress of the mark to the disk. Requests the mark if this session has not yet.
     pub(super) fn follow(&mut self, debts: &UnitDebts, now: Moment) -> Progress {
         let State::Put { first, is_reported, .. } = &mut self.0 else {
             self.put(debts, now);
@@ -90,11 +89,11 @@ impl Marking {
         }
     }
 
-    /// Requests the mark, as of now.
+    /// Requests the mark with the current time.
     pub(super) fn put(&mut self, debts: &UnitDebts, now: Moment) {
         let (begun, first, is_reported) = match self.0 {
             State::None => (Some(now.utc), now.steady, false),
-            // The debt began in the earlier run; only the try is new.
+            // The debt began in the earlier run; only the attempt is new.
             State::Found { begun } => (begun, now.steady, false),
             State::Put { begun, first, is_reported, .. } => (begun, first, is_reported),
         };
@@ -102,7 +101,7 @@ impl Marking {
         self.0 = State::Put { begun, first, last: now.steady, is_reported };
     }
 
-    /// Records that a unit that may be moving is still attended to.
+    /// Records that the session still attends to a unit that may be moving.
     pub(super) fn refresh(&mut self, debts: &UnitDebts, now: Moment) {
         let State::Put { last, .. } = self.0 else { return };
         let after = match debts.mark_kept() {
@@ -115,7 +114,7 @@ impl Marking {
         }
     }
 
-    /// Why the mark is not on the disk.
+    /// Returns the reason why the mark is not on disk.
     pub(super) fn not_on_disk(&self, debts: &UnitDebts, now: Instant) -> Option<String> {
         let State::Put { first, .. } = self.0 else { return None };
         let is_late = now.saturating_duration_since(first) >= MAX;
@@ -126,7 +125,7 @@ impl Marking {
         }
     }
 
-    /// When to check again whether the mark is on the disk.
+    /// Returns the time of the next check whether the mark is on disk.
     pub(super) fn due(&self, debts: &UnitDebts, now: Instant) -> Option<Instant> {
         let State::Put { first, .. } = self.0 else { return None };
         let is_awaited = now.saturating_duration_since(first) < MAX
@@ -134,7 +133,7 @@ impl Marking {
         is_awaited.then_some(now + LOOK)
     }
 
-    /// Nothing is owed to the unit any more.
+    /// Removes the mark, because Azel owes the unit nothing any more.
     pub(super) fn remove(&mut self, debts: &UnitDebts) {
         match std::mem::take(&mut self.0) {
             State::None => {}

@@ -1,5 +1,4 @@
-//! Rates of an antenna by its measured positions, whoever drives it, and the barriers that were
-//! reported.
+//! Rates of an antenna from its measured positions, and the reported barriers.
 
 use std::time::Duration;
 
@@ -11,34 +10,34 @@ use crate::{
     plan::Barrier,
 };
 
-/// Rates are taken between positions no further apart than this.
+/// Max time between two positions for a rate.
 const SPAN: Duration = Duration::from_secs(5);
-/// Rates are taken between positions at least this far apart: one step of a unit that counts whole
-/// degrees would be a great rate between two that follow at once.
+/// Min time between two positions for a rate. A unit with whole degrees would otherwise show a high
+/// rate from a single step.
 const APART: Duration = Duration::from_millis(150);
-/// Angles that differ by less are equal, degrees.
+/// Max difference between equal angles, degrees.
 const ROUNDING_DEG: f64 = 1e-6;
-/// Values that were measured and reported last.
+/// Last measured and reported values.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Watch {
-    /// When the position that was judged last came in.
+    /// Receive time of the last judged position.
     looked: Option<Instant>,
-    /// The later of the two positions that the rates were taken between.
+    /// Later one of the two positions for the rates.
     last: Option<Measured>,
-    /// The last angle of each axis, degrees, and when it was asked for.
+    /// Last angle of each axis, degrees, and its request time.
     angles: [Option<(f64, Instant)>; 2],
-    /// Where readings of each axis may be without a motion.
+    /// Range of the readings of each axis without a motion.
     rests: [RestRange; 2],
     /// Rates of the axes between the last two positions, degrees a second.
     rates_deg_s: [f64; 2],
-    /// Barriers that were reported and have not been left since.
+    /// Reported barriers that the antenna has not left since.
     reported: Vec<Barrier>,
 }
 
-/// Readings of an axis that may stand.
+/// Range of the readings of an axis that may stand.
 ///
-/// A reading that swings within this range is rounding, noise or sway. A reading beyond an end drags the
-/// range along, so that an axis that goes on leaves it with each reading.
+/// A reading within this range is rounding, noise or sway. A reading beyond an end shifts the
+/// range, so that a moving axis leaves the range with each reading.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct RestRange {
     /// Distance from the last reading to the lower and to the upper end, degrees.
@@ -47,8 +46,8 @@ struct RestRange {
 }
 
 impl RestRange {
-    /// Takes a reading that differs by `turned_deg` from the last one. Returns `true` if it is not within
-    /// a range of `width_deg` with those before.
+    /// Takes a reading that differs by `turned_deg` from the last one. Returns `true` if the
+    /// reading and the previous ones exceed a range of `width_deg`.
     fn leave(&mut self, turned_deg: f64, width_deg: f64) -> bool {
         let below_deg = (self.below_deg + turned_deg).max(0.0);
         let above_deg = (self.above_deg - turned_deg).max(0.0);
@@ -70,7 +69,7 @@ fn is_driven(axis: Axis, rate_deg_s: f64) -> bool {
     }
 }
 
-/// Rate since an angle before readings without one, degrees a second.
+/// Returns the rate since the last angle before a gap in the angles, degrees a second.
 fn bridged_rate_deg_s(turned_deg: f64, now: Instant, asked: Instant) -> f64 {
     let span = now.saturating_duration_since(asked);
     if span.is_zero() || span > SPAN {
@@ -84,12 +83,12 @@ fn is_at_limit(axis: Axis) -> bool {
 }
 
 impl Watch {
-    /// Returns `true`, once for each position.
+    /// Returns `true` once for each position.
     pub(super) fn is_new(&mut self, look: &Measured) -> bool {
         self.looked.replace(look.received) != Some(look.received)
     }
 
-    /// Rates of the axes between the last two positions, degrees a second.
+    /// Returns the rates of the axes between the last two positions, degrees a second.
     pub(super) fn last_rates_deg_s(&self) -> [f64; 2] {
         self.rates_deg_s
     }
@@ -102,15 +101,14 @@ impl Watch {
         self.reported.push(barrier);
     }
 
-    /// The antenna has left the barrier: the next time is news again.
+    /// Records that the antenna has left the barrier: the next entry is news again.
     pub(super) fn leave(&mut self, barrier: &Barrier) {
         self.reported.retain(|reported| reported != barrier);
     }
 
-    /// Rates of the axes, degrees a second. One that reports no angle for a moment keeps its last
-    /// rate. One whose drive is off, or on in the other direction, turns only once it has left the range
-    /// in which a standing axis is read.
-    /// `rest_width_deg`: width of that range.
+    /// Returns the rates of the axes, degrees a second. An axis that misses an angle for a moment
+    /// keeps its last rate. An axis whose drive is off, or on in the other direction, turns only
+    /// once it has left the range of a standing axis. `rest_width_deg`: width of that range.
     pub(super) fn rates(
         &mut self,
         look: &Measured,
@@ -139,14 +137,14 @@ impl Watch {
                 continue;
             };
             let bridged = before.is_some_and(|before| before.requested < look.requested);
-            // Without an angle in the position before, the rate comes from the last one that had
-            // one.
+            // Without an angle in the previous position, compute the rate from the last known
+            // angle.
             if bridged && *rate == 0.0 {
                 *rate = bridged_rate_deg_s(angle_deg - last_deg, look.requested, asked);
             }
             let turned_deg = Angle::from_degrees(angle_deg - last_deg).wrapped_180().degrees();
             // Noise, gusts and rounding change the reading of a standing axis. Between two
-            // positions that follow at once they would be a rate that leads into a keep-out.
+            // consecutive positions, they would look like a rate into a keep-out.
             let has_left = rest.leave(turned_deg, rest_width_deg);
             if !has_left && !is_driven(axis, *rate) {
                 *rate = 0.0;
@@ -160,14 +158,14 @@ impl Watch {
     }
 }
 
-/// Longest time between two measurements. The reply to a repeated question may have been measured
-/// at any time since the first.
+/// Returns the max time between two measurements. The unit may have measured the reply to a
+/// repeated query at any time since the first query.
 fn span(before: &Measured, after: &Measured) -> Duration {
     let asked = after.requested.saturating_duration_since(before.requested);
     asked.max(after.received.saturating_duration_since(before.received))
 }
 
-/// Rates of the axes, degrees a second; zero between positions that cannot be compared.
+/// Returns the rates of the axes, degrees a second; zero for positions that cannot be compared.
 fn rates_deg_s(before: &Measured, after: &Measured) -> [f64; 2] {
     let span = span(before, after);
     if span.is_zero() || span > SPAN {

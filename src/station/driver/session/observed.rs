@@ -1,4 +1,4 @@
-//! What the unit was seen doing, for comparison with its next report.
+//! Observed behaviour of the unit, for comparison with its next report.
 
 use super::{
     effect::Effects,
@@ -16,16 +16,16 @@ pub(super) struct Observed {
     pub(super) place: Place,
     pub(super) overrun: Overrun,
     pub(super) effects: Effects,
-    /// Watch over a track that nobody asked for from here.
+    /// Watch over a track that Azel did not request.
     pub(super) unasked: Option<Watch>,
     rest: Rest,
-    /// When the last position that was compared at rest came in.
+    /// Receive time of the last position compared at rest.
     looked: Option<Instant>,
 }
 
 impl Observed {
-    /// Takes a position once. Returns the axis that turns although the flags say that it stands, and
-    /// by how many degrees.
+    /// Takes each position once. Returns the axis that turns although the flags report standstill,
+    /// and its angle in degrees.
     pub(super) fn turned_at_rest(
         &mut self,
         look: Measured,

@@ -1,15 +1,15 @@
-//! How long an antenna has been off its target.
+//! Time that an antenna has been off its target.
 
 use std::time::Duration;
 
 use crate::{astro::Angle, clock::Instant};
 
-/// An alarm is raised for an antenna that has been off its target for this long.
+/// Time off target after which Azel raises an alarm.
 const ALARM_AFTER: Duration = Duration::from_secs(10);
-/// The pass is given up after this time.
+/// Time off target after which Azel gives up the pass.
 const GIVE_UP_AFTER: Duration = Duration::from_secs(30);
 
-/// How long an antenna has been off its target.
+/// Duration of the current pointing error.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct OffTarget {
     /// Start of the error, last measured error, and time of that measurement.
@@ -17,7 +17,7 @@ pub(super) struct OffTarget {
 }
 
 impl OffTarget {
-    /// Takes the angle off target; `None` on target, or while the antenna cannot be there yet.
+    /// Takes the angle off target; `None` on target, or while the antenna cannot have arrived yet.
     pub(super) fn take(&mut self, off: Option<Angle>, at: Instant) {
         let began = self.error.map_or(at, |(began, ..)| began);
         self.error = off.map(|off| (began, off, at));

@@ -1,4 +1,4 @@
-//! Offsets of a track, changed while it runs.
+//! Offsets of a track, changed while the track runs.
 
 use super::{Session, program_track::motion, tracking::Tracking};
 use crate::{
@@ -20,7 +20,7 @@ impl Session {
         }
     }
 
-    /// The passes of the track that are still to come begin with these.
+    /// Sets the offsets with which the remaining passes of the track begin.
     pub(super) fn begin_with(&mut self, offsets: TrackOffsets) {
         if let Some(track) = self.commanded.activity.program_mut() {
             track.planner.begin_with(offsets);
@@ -41,11 +41,12 @@ impl Session {
             OffsetChange::Undo => track.last_earlier().ok_or(Refusal::Nothing)?,
         };
         let demand = demand(track, offsets, now).ok_or(Refusal::PassUnknown)?;
-        // Without offsets the track goes on as it was asked for, and waits at an edge.
+        // Without offsets, the track continues as requested, and waits at an edge.
         if !offsets.is_none() {
             self.gate.demand_is_clear(demand, now)?;
         }
-        // Only a planner that has the offsets says where they lead next. A refusal takes them back.
+        // Only a planner with the new offsets can predict their path. A refusal restores the
+        // previous offsets.
         self.take_offsets(offsets, now);
         if let Err(refusal) = self.check_next(now)
             && !offsets.is_none()
@@ -67,7 +68,7 @@ impl Session {
         Ok(())
     }
 
-    /// Checks the way to the next position of the track.
+    /// Checks the path to the next position of the track.
     fn check_next(&mut self, now: Moment) -> Result<(), Refusal> {
         let axes = Tracking::turning(self.gate.state().measured);
         let Some(track) = self.commanded.activity.program_mut() else { return Ok(()) };
@@ -99,7 +100,7 @@ impl Session {
         self.watch_offsets(now);
     }
 
-    /// Tells the gate where the axes point on the sky.
+    /// Informs the gate about the direction of the axes on the sky.
     pub(super) fn watch_offsets(&mut self, now: Moment) {
         let track = self.commanded.activity.program();
         let to_sky = track.and_then(|track| {
@@ -119,7 +120,7 @@ pub(super) fn max_offset(step: Offset) -> Offset {
     }
 }
 
-/// Where the track leads with these offsets, now or at the start of its pass.
+/// Returns the direction of the track with these offsets, now or at the start of its pass.
 fn demand(track: &Tracking, offsets: TrackOffsets, now: Moment) -> Option<Demand> {
     let at = track.phase().begins(now.utc);
     let [axes, plain] =

@@ -1,5 +1,5 @@
-//! Watches an on-board track: before it starts by what the unit reports, and while it runs by
-//! where it points.
+//! Watch over an on-board track: by the unit's reports before the start, and by the measured
+//! positions while it runs.
 
 use std::{sync::Arc, time::Duration};
 
@@ -17,16 +17,15 @@ use crate::{
     },
 };
 
-/// The unit's clock is reported with the delay of the link: smaller differences are ignored,
-/// seconds.
+/// Max ignored difference of the unit's clock, seconds, because the link delays its reports.
 const SAME_CLOCK_S: f64 = 0.2;
 
-/// Largest pointing errors of an antenna that works, and its fastest rate.
+/// Max pointing errors of a working antenna, and its fastest rate.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PointingLimits {
-    /// More is outside the beam, which raises an alarm.
+    /// Max error within the beam; a larger one raises an alarm.
     pub(super) in_beam: Angle,
-    /// More stops the antenna: the tolerance of an arrival counts too.
+    /// Max error on target, including the arrival tolerance; a larger one stops the antenna.
     pub(super) on_target: Angle,
     pub(super) max_rate_deg_s: f64,
 }
@@ -35,17 +34,17 @@ pub(super) struct Watch {
     judge: Arc<Judge>,
     found: Arc<Supervision>,
     found_by: OnBoard,
-    /// The unit holds the target.
+    /// `true` if the unit has the target.
     holds_target: bool,
-    /// When the position that was compared last came in.
+    /// Receive time of the last compared position.
     compared: Option<Instant>,
     was_on_target: bool,
     /// Latest expected arrival on the satellite.
     arrives: Option<Instant>,
     off_target: OffTarget,
-    /// Error by this computer's clock that a different clock of the unit does not explain.
+    /// Error by this computer's clock that a deviation of the unit's clock does not explain.
     unexplained: OffTarget,
-    /// The position when the axes last turned, and where the satellite was then.
+    /// Position at the last turn of the axes, and the satellite's direction at that time.
     turned: Option<(Measured, AzEl)>,
 }
 
@@ -77,19 +76,19 @@ impl Watch {
         }
     }
 
-    /// Returns the cause, found in the unit's reports, that makes an error of `off`.
+    /// Returns the cause of an error of `off`, found in the unit's reports.
     pub(super) fn cause(&self, off: Angle) -> Option<Ranked> {
         self.found.cause_of(off).cloned()
     }
 
-    /// How long the antenna has been off its target for another reason than the clocks. A unit that
-    /// follows its own clock obeys, and this computer's clock may be the wrong one.
+    /// Returns the pointing error that the clocks do not explain, with its duration. A unit that
+    /// follows its own clock obeys, and this computer's clock may be wrong.
     pub(super) fn unexplained(&self) -> OffTarget {
         self.unexplained
     }
 
-    /// Takes the pointing error outside the beam, and the one for which a pass is given up; `None` where
-    /// it is less.
+    /// Takes the pointing error outside the beam, and the error for which Azel gives up a pass;
+    /// `None` for a smaller error.
     fn take_off(
         &mut self,
         off: Option<Angle>,
@@ -99,7 +98,7 @@ impl Watch {
         at: Instant,
     ) {
         self.was_on_target |= is_on_target;
-        // Before it was on target for the first time, the antenna may still be on its way there.
+        // Before its first arrival on target, the antenna may still be on its way.
         let slew = if self.was_on_target { Duration::ZERO } else { slew };
         let arrives = *self.arrives.get_or_insert(at + slew);
         let counts = self.was_on_target || at >= arrives;
@@ -107,13 +106,13 @@ impl Watch {
         self.unexplained.take(unexplained.filter(|_| counts), at);
     }
 
-    /// Direction of the satellite at the time of the unit's clock; `None` if that is not known.
+    /// Returns the direction of the satellite by the unit's clock; `None` without a known time.
     fn by_unit_clock(&self, unit: &OnBoard, meant: TrackOffsets, at: Timestamp) -> Option<AzEl> {
         let ahead_s = unit.clock.filter(|clock| clock.is_set)?.surely_ahead_s();
         meant.demanded(add_seconds(at, ahead_s), |at| self.judge.direction(at))
     }
 
-    /// Judges again if the unit reports something else.
+    /// Judges the pass again if the unit's report has changed.
     pub(super) fn judge_again(&mut self, unit: &OnBoard, holds_target: bool) {
         let same_clock = match (unit.clock, self.found_by.clock) {
             (Some(now), Some(then)) => {
@@ -133,7 +132,7 @@ impl Watch {
         self.found_by = unit.clone();
     }
 
-    /// The reason not to start the unit on the pass.
+    /// Returns the reason not to start the unit on the pass.
     pub(super) fn objection(&self) -> Option<Event> {
         self.would_miss().filter(|_| !self.judge.pass().is_agreed)
     }
@@ -142,15 +141,15 @@ impl Watch {
         self.judge.pass() == pass
     }
 
-    /// Returns `true`, once for each position, while the satellite is up.
+    /// Returns `true` once for each position, while the satellite is up.
     pub(super) fn is_due(&mut self, measured: &Measured) -> bool {
         let target = &self.judge.pass().target;
         let is_up = (target.start..target.end).contains(&measured.time);
         is_up && self.compared.replace(measured.received) != Some(measured.received)
     }
 
-    /// Returns `true` if neither axis has turned while the path of the unit, at `to` now, went on.
-    /// `can_point`: the unit tracks, and the antenna reaches `to`.
+    /// Returns `true` if neither axis has turned while the path of the unit, now at `to`,
+    /// continued. `can_point`: the unit tracks, and the antenna reaches `to`.
     pub(super) fn stands_still(
         &mut self,
         measured: &Measured,
@@ -179,7 +178,7 @@ impl Watch {
             && measured.requested.saturating_duration_since(before.requested) >= shows_after
     }
 
-    /// Compares a position with the satellite. `meant`: offsets that are meant to be on.
+    /// Compares a position with the satellite. `meant`: desired offsets.
     pub(super) fn compare(
         &mut self,
         measured: &Measured,
@@ -203,7 +202,7 @@ impl Watch {
         self.take_off(outside, !is_off(&off), unexplained, slew, now);
     }
 
-    /// The event for a unit that would not point, or does not point, at the satellite.
+    /// Returns the event for a unit that would miss or misses the satellite.
     pub(super) fn would_miss(&self) -> Option<Event> {
         let name = self.judge.pass().target.name.clone();
         let missed = (!self.found.is_within_beam).then(|| Arc::clone(&self.found));

@@ -1,4 +1,4 @@
-//! Starts and supervises a track that the unit computes.
+//! Start and supervision of a track that the unit computes.
 
 use std::sync::Arc;
 
@@ -20,9 +20,8 @@ use crate::{
 };
 
 impl Session {
-    /// Checks a pass before the unit is started on it, and finds the way to where it begins if the
-    /// antenna has to be taken there. Returns `None` until the path is judged. The error is the event
-    /// to report.
+    /// Checks a pass before its start, and finds the path to its start if Azel must move the
+    /// antenna there. Returns `None` until the path is judged. The error is the event to report.
     pub(super) fn examine_pass(
         &mut self,
         pass: OnBoardPass,
@@ -31,7 +30,7 @@ impl Session {
         let name = pass.target.name.clone();
         let judge = Judge::new(pass, self.setup.ability())
             .map_err(|error| Event::CannotProgramTrack(name, TrackProblem::Orbit(error)))?;
-        // Azel takes back the offsets of another track before this one begins.
+        // Azel removes the offsets of another track before this one begins.
         let watch = Watch::new(Arc::new(judge), &self.plain_unit());
         if let Some(event) = watch.objection() {
             return Err(event);
@@ -52,7 +51,8 @@ impl Session {
         Ok(Some((watch, slew.map_err(Event::NotSent)?)))
     }
 
-    /// The objection to the pass now that the unit holds it and has been read again.
+    /// Returns the objection to the pass after the unit has the target and a new reading has
+    /// arrived.
     pub(super) fn objection_to_pass(&mut self) -> Option<Event> {
         let watch = &mut self.commanded.activity.on_board_mut()?.watch;
         watch.judge_again(&self.gate.state().on_board, true);
@@ -88,7 +88,7 @@ impl Session {
         )
     }
 
-    /// The watch over the on-board track, whoever asked for it.
+    /// Returns the watch over the on-board track, also over a track that Azel did not request.
     pub(super) fn on_board_watch(&self) -> Option<&Watch> {
         self.commanded
             .activity
@@ -97,7 +97,7 @@ impl Session {
             .or(self.observed.unasked.as_ref())
     }
 
-    /// Begins or ends the watch over a track that nobody asked for from here.
+    /// Starts or ends the watch over a track that Azel did not request.
     fn watch_unasked(&mut self) {
         let state = self.gate.state();
         let is_on =
@@ -111,12 +111,12 @@ impl Session {
         if self.observed.unasked.as_ref().is_some_and(|watch| watch.is_over_pass(&pass)) {
             return;
         }
-        // Elements that describe no orbit give no direction to compare with.
+        // Elements without a valid orbit give no direction for a comparison.
         let judge = Judge::new(pass, self.setup.ability()).ok();
         self.observed.unasked = judge.map(|judge| Watch::new(Arc::new(judge), &state.on_board));
     }
 
-    /// Returns `true` if the antenna stands while the path of the unit, at `to` now, goes on.
+    /// Returns `true` if the antenna stands while the path of the unit, now at `to`, continues.
     fn stands_while_it_should_track(&mut self, measured: &Measured, to: AzEl, now: Moment) -> bool {
         let (figures, can) = (self.figures(), self.setup.can());
         let program = self.gate.state().program;
@@ -126,7 +126,7 @@ impl Session {
         track.watch.stands_still(measured, to, can_point, figures, can)
     }
 
-    /// The watch over the on-board track, whoever asked for it.
+    /// Returns the watch over the on-board track, also over a track that Azel did not request.
     fn on_board_watch_mut(&mut self) -> Option<&mut Watch> {
         self.commanded
             .activity
@@ -135,7 +135,7 @@ impl Session {
             .or(self.observed.unasked.as_mut())
     }
 
-    /// Checks whether the unit points where it should.
+    /// Checks the direction of the unit against its track.
     pub(super) fn watch_on_board(&mut self, now: Moment) {
         if self.commanded.activity.on_board().is_none() {
             self.watch_unasked();
@@ -158,7 +158,7 @@ impl Session {
         if !watch.is_due(&measured) {
             return;
         }
-        // Where this unit goes, by its own minimum elevation, clock and window.
+        // Find the direction of this unit by its own minimum elevation, clock and window.
         let own = watch.judge().start(&unit, measured.time);
         if own.is_some_and(|to| self.stands_while_it_should_track(&measured, to, now)) {
             return self.end_without_effect(None, now);

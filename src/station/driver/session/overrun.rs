@@ -1,35 +1,35 @@
-//! How long the axes turn on after a STOP.
+//! Overrun of the axes after a STOP.
 
 use std::collections::VecDeque;
 
 use crate::{clock::Instant, contract::driver::StoppingWay, device::Measured};
 
-/// Measured overrun: how long the axes turn on after a STOP.
+/// Measured overrun: how long the axes continue after a STOP.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Overrun {
-    /// The position before the STOP, the rate then, and when STOP went out.
+    /// Position before the STOP, its rates, and the send time of the STOP.
     before: Option<(Measured, [f64; 2], Instant)>,
-    /// The last overruns, seconds.
+    /// Overruns of the last STOPs, seconds.
     last_s: VecDeque<f64>,
-    /// Number of STOPs measured in all.
+    /// Total number of measured STOPs.
     stops: u32,
 }
 
-/// Number of STOPs that replace the default.
+/// Number of measured STOPs that replace the default overrun.
 const ENOUGH: usize = StoppingWay::ENOUGH as usize;
-/// Azel learns the overrun from jogs at this share of the fastest rate or more. The overrun of
-/// slower ones is lost in the noise of the readings.
+/// Min share of the fastest rate at which Azel learns the overrun from a jog. Slower overruns
+/// disappear in the noise of the readings.
 const TELLING_SHARE: f64 = 0.5;
 
 impl Overrun {
-    /// A STOP goes out.
+    /// Records an outgoing STOP.
     pub(super) fn begin(&mut self, before: Option<(Measured, [f64; 2])>, now: Instant) {
         self.before = before.map(|(look, rates)| (look, rates, now));
     }
 
-    /// The axes stand. Returns the longest overrun of the last STOPs, seconds, once enough
-    /// were measured. It counts as that from the fastest rate, because drives that brake
-    /// evenly turn on for longer the faster they are.
+    /// Measures the overrun of axes that now stand. Returns the longest overrun of the last STOPs,
+    /// seconds, once enough STOPs are measured. Scales each overrun to the fastest rate, because
+    /// drives that brake evenly overrun longer at higher rates.
     pub(super) fn end(&mut self, rest: &Measured, fastest_deg_s: f64) -> Option<f64> {
         let (before, rates, stop) = self.before.take()?;
         let to_stop_s = stop.saturating_duration_since(before.requested).as_secs_f64();
@@ -51,7 +51,7 @@ impl Overrun {
         (self.last_s.len() >= ENOUGH).then_some(worst_s)
     }
 
-    /// The stopping way, with the overrun that the gate assumes.
+    /// Returns the stopping way, with the overrun that the gate assumes.
     pub(super) fn stopping_way(&self, overrun_s: f64) -> StoppingWay {
         let is_learned = self.last_s.len() >= ENOUGH;
         StoppingWay { overrun_s, stops: self.stops, is_learned }

@@ -1,4 +1,4 @@
-//! What Azel owes to a unit: a STOP, auto-track switched off, and the record of both.
+//! Debts of Azel to a unit: a STOP, disabled auto-track, and the record of both.
 
 use std::sync::Arc;
 
@@ -22,14 +22,14 @@ pub(super) struct Owed {
     debts: UnitDebts,
     auto_track: AutoTrackOff,
     marking: Marking,
-    /// An earlier run may have left the unit moving, since then; the operator is being asked.
+    /// Possible motion from an earlier run, with its start, during the question to the operator.
     left_moving: Option<LeftMoving>,
     /// Progress of a lock-out.
     pub(super) locking: Locking,
 }
 
 impl Owed {
-    /// Begins a session of `unit`; `stop` stops it, at once if a STOP is owed.
+    /// Begins a session of `unit`; notifies `stop` at once if Azel owes the unit a STOP.
     pub(super) fn begin(debts: Debts, unit: Unit, stop: Arc<Notify>) -> Self {
         Self {
             debts: UnitDebts::begin(debts, unit, stop),
@@ -52,7 +52,7 @@ impl Owed {
         self.debts.keep_unproved(moved_at);
     }
 
-    /// Requests the mark that the unit is moved, unless this session has already.
+    /// Requests the mark of a moving unit, unless this session already has.
     pub(super) fn follow_mark(&mut self, now: Moment) -> Progress {
         if !self.debts.has_marks() {
             return Progress::Settled;
@@ -60,14 +60,14 @@ impl Owed {
         self.marking.follow(&self.debts, now)
     }
 
-    /// Writes the mark again from time to time, while the session attends to the unit.
+    /// Refreshes the mark from time to time while the session attends to the unit.
     pub(super) fn refresh_mark(&mut self, now: Moment) {
         if self.debts.has_marks() {
             self.marking.refresh(&self.debts, now);
         }
     }
 
-    /// Requests the mark, as of now. Returns `false` if there is no folder for it.
+    /// Requests the mark with the current time. Returns `false` without a folder for marks.
     pub(super) fn put_mark(&mut self, now: Moment) -> bool {
         let has_marks = self.debts.has_marks();
         if has_marks {
@@ -76,13 +76,13 @@ impl Owed {
         has_marks
     }
 
-    /// An earlier run left a mark. `asks`: the operator must decide.
+    /// Records a mark of an earlier run. `asks`: the operator must decide.
     pub(super) fn found_mark(&mut self, begun: Option<Timestamp>, asks: bool) {
         self.marking = Marking::found(begun);
         self.left_moving = asks.then_some(LeftMoving { start: begun });
     }
 
-    /// Why the next start would not know that a STOP is owed.
+    /// Returns the reason why the next start would not know of the owed STOP.
     pub(super) fn not_on_disk(&self, now: Instant) -> Option<String> {
         if !self.debts.has_marks() {
             return Some("this user has no folder for it".to_owned());
@@ -90,36 +90,36 @@ impl Owed {
         self.marking.not_on_disk(&self.debts, now)
     }
 
-    /// When to check again whether the mark is on the disk.
+    /// Returns the time of the next check whether the mark is on disk.
     pub(super) fn marking_due(&self, now: Instant) -> Option<Instant> {
         self.marking.due(&self.debts, now)
     }
 
-    /// Standstill is proved: no STOP is owed to the unit any more.
+    /// Clears the owed STOP after proved standstill.
     pub(super) fn settle_stop(&mut self) {
         self.debts.settle_stop();
         self.left_moving = None;
         self.marking.remove(&self.debts);
     }
 
-    /// From now on the unit is not to start by itself.
+    /// Records that the unit must not start on its own.
     pub(super) fn owe_auto_track_off(&mut self) {
         self.debts.owe_auto_track_off();
         self.auto_track = AutoTrackOff::default();
     }
 
-    /// The unit is asked on this link to switch auto-track off; `None` for a new link.
+    /// Records a request on this link to disable auto-track; `None` for a new link.
     pub(super) fn auto_track_asked(&mut self, at: Option<Instant>) {
         self.auto_track.asked(at);
     }
 
-    /// The unit has refused to switch auto-track off, or has not answered. Returns `true` if the
-    /// operator is to know.
+    /// Records that the unit has refused to disable auto-track or has not answered. Returns `true`
+    /// if the operator must know.
     pub(super) fn auto_stays_on(&mut self) -> bool {
         self.auto_track.is_first_report() || !self.debts.owes_auto_track_off()
     }
 
-    /// The next step to auto-track off, where that is owed.
+    /// Returns the next step to disable auto-track, if owed.
     pub(super) fn next_for_auto_track(&mut self, state: &AntennaState, now: Instant) -> NextStep {
         if !self.debts.owes_auto_track_off() {
             return NextStep::Wait;

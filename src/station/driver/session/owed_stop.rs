@@ -1,5 +1,4 @@
-//! Records on disk that the antenna is moved by hand or is owed a STOP, and looks at what an
-//! earlier run recorded.
+//! Records on disk of manual motions and owed STOPs, and the check of an earlier run's records.
 
 use super::{
     Session,
@@ -12,7 +11,7 @@ use crate::{
 };
 
 impl Session {
-    /// Returns `true` if the mark is on the disk or cannot be had; requests it.
+    /// Requests the mark. Returns `true` if the mark is on disk or cannot be stored.
     pub(super) fn is_marked(&mut self, now: Moment) -> bool {
         if self.setup.can().ends_jogs {
             return true;
@@ -22,8 +21,7 @@ impl Session {
         progress != Progress::Pending
     }
 
-    /// Records on disk that a STOP is owed. It comes after the bytes of the STOP, which wait for no
-    /// disk.
+    /// Records an owed STOP on disk after the bytes of the STOP, which wait for no disk.
     pub(super) fn record_debt(&mut self, now: Moment) {
         let is_out_of_reach = self.stop.is_under_way() && !self.contact.is_open();
         if self.stop.is_pressed() || is_out_of_reach {
@@ -41,15 +39,14 @@ impl Session {
         }
     }
 
-    /// Waits a moment until the disk has taken all requests, which the end of the program would
-    /// cut off.
+    /// Waits briefly until the disk has stored all requests, before the program ends.
     pub(super) async fn end_marking(&mut self) {
-        // A file that stays costs no more than a STOP at the next start.
+        // A remaining file costs no more than a STOP at the next start.
         let _ = self.clock.timeout(marking::MAX, self.owed.debts().settled()).await;
     }
 
-    /// Checks what an earlier run left on the unit. If that may be moving, STOP is sent first,
-    /// unless the operator must decide.
+    /// Checks the record of an earlier run. If the unit may be moving, sends STOP first, unless the
+    /// operator must decide.
     pub(super) async fn look_for_mark(&mut self) {
         if !self.owed.debts().has_marks() {
             return;
@@ -69,8 +66,8 @@ impl Session {
         self.tell(Event::Safety(Safety::LeftMoving { start: begun, asks }));
     }
 
-    /// Records on disk that a STOP is owed, for a program that ends before it is proved. A slow
-    /// disk holds the STOP up only for a moment; the mark is written meanwhile.
+    /// Records an owed STOP on disk, in case the program ends before standstill is proved. A slow
+    /// disk delays the STOP only briefly; the worker continues to write the mark.
     pub(super) async fn mark_debt(&mut self) {
         let now = self.now();
         if self.owed.put_mark(now) {
@@ -78,14 +75,14 @@ impl Session {
         }
     }
 
-    /// From now on the unit is not to start by itself.
+    /// Records that the unit must not start on its own.
     pub(super) fn end_auto_track(&mut self) {
         if self.setup.can().has_program {
             self.owed.owe_auto_track_off();
         }
     }
 
-    /// Switches auto-track off where that is owed, and reads it back.
+    /// Disables auto-track if owed, and reads it back.
     pub(super) fn watch_auto_track(&mut self, now: Moment) {
         match self.owed.next_for_auto_track(self.gate.state(), now.steady) {
             NextStep::Wait | NextStep::Proved => {}

@@ -1,20 +1,20 @@
-//! The barrier that an antenna is inside of.
+//! Barrier around an antenna.
 
 use crate::{
     clock::Instant, contract::driver::Breach, device::Measured, name::Name, plan::Barrier,
 };
 
-/// The barrier that the antenna is, or may be, inside of by the last position.
+/// Barrier that certainly or possibly contains the antenna at its last position.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Place {
     looked: Option<Instant>,
     barrier: Option<Barrier>,
-    /// The axis without an angle; with one, the antenna may only be inside.
+    /// Axis without an angle; if set, the antenna is only possibly inside.
     unknown_axis: Option<usize>,
 }
 
 impl Place {
-    /// Returns `true`, once for each position.
+    /// Returns `true` once for each position.
     pub(super) fn is_new(&mut self, look: &Measured) -> bool {
         self.looked.replace(look.received) != Some(look.received)
     }
@@ -23,7 +23,7 @@ impl Place {
         (self.barrier, self.unknown_axis) = (barrier, unknown_axis);
     }
 
-    /// For the snapshot. `axes`: their names.
+    /// Returns the breach for the snapshot. `axes`: names of the axes.
     pub(super) fn view(&self, axes: &[Name], may_leave: bool) -> Option<Breach> {
         let barrier = self.barrier.clone()?;
         let unknown_axis = self.unknown_axis.and_then(|axis| axes.get(axis)).copied();

@@ -1,4 +1,4 @@
-//! Stops an antenna that stays off its target, and gives up its pass.
+//! Stop of an antenna that stays off its target, and the end of its pass.
 
 use super::{Session, activity::Activity};
 use crate::{
@@ -11,7 +11,7 @@ impl Session {
     pub(super) fn watch_pointing(&mut self, now: Moment) {
         let off_target = match &self.commanded.activity {
             Activity::ProgramTrack(track) => track.off_target(),
-            // The operator knows that the unit may miss this pass.
+            // The operator has accepted that the unit may miss this pass.
             Activity::OnBoardTrack(track) if track.watch.judge().pass().is_agreed => return,
             Activity::OnBoardTrack(track) => track.watch.unexplained(),
             Activity::Standby | Activity::Manual | Activity::Hold(_) | Activity::GoTo(_) => return,

@@ -1,5 +1,5 @@
-//! Program track: sends one position after another on the session's own clock. It survives a
-//! lost link, and ends with any other command of the operator.
+//! Program track: sends one position after another on the session's own clock. The track survives a
+//! lost link, and ends with any other operator command.
 
 use std::time::Duration;
 
@@ -20,20 +20,21 @@ use crate::{
     station::AfterPass,
 };
 
-/// Why a program track has not begun.
+/// Reason why a program track has not begun.
 pub(super) enum NotFollowed {
     Refused,
-    /// Its way is being judged.
+    /// Pending judgement of its path.
     Waits,
 }
 
 impl Session {
-    /// Begins program track of a target. Other motions are stopped first. An error is reported already.
+    /// Starts program track of a target after stopping other motions. An error was already
+    /// reported.
     pub(super) fn follow(&mut self, follow: ProgramTrack, now: Moment) -> Result<(), NotFollowed> {
         let name = follow.target.name().into_owned();
         tracing::info!(antenna = self.setup.name(), name, passes = follow.passes.len(), "follow");
         let TrackConfig { mut drives, settings, model } = self.setup.track_config();
-        // The unit's own limits may be tighter than those of the station file.
+        // The unit's own limits may be tighter than the limits in the station file.
         drives.mount = drives.mount.clipped(self.gate.state().travel_deg);
         let follow =
             if settings.after == AfterPass::Next { follow } else { follow.one_pass(now.utc) };
@@ -45,13 +46,13 @@ impl Session {
             let planner = Planner::new(follow, drives, settings, bounds);
             planner.map(|planner| planner.with_model(model)).map_err(TrackProblem::Orbit)
         };
-        // The first position must be judged with the offsets that its pass begins with.
+        // The gate must judge the first position with the initial offsets of its pass.
         let sky_before = self.gate.to_sky();
         if let Ok(planner) = &planned {
             let to_sky = planner.to_sky(phase.begins(now.utc), planner.offsets());
             self.gate.set_to_sky(to_sky);
         }
-        // Checked before it ends anything.
+        // Check the position before ending any motion.
         let checked = planned.and_then(|planner| self.check_first(planner, now));
         let planner = match checked {
             Ok(planner) => planner,
@@ -64,7 +65,7 @@ impl Session {
                 return Err(NotFollowed::Refused);
             }
         };
-        // From one target to another no stop is needed.
+        // A change of target needs no stop.
         if self.commanded.activity.last_program().is_none() && self.may_move() {
             self.halt_quietly(now);
         }
@@ -75,7 +76,7 @@ impl Session {
         Ok(())
     }
 
-    /// Checks whether the first position may be sent.
+    /// Checks whether the gate allows the first position.
     fn check_first(&mut self, mut planner: Planner, now: Moment) -> Result<Planner, TrackProblem> {
         let axes = Tracking::turning(self.gate.state().measured);
         if let Some(order) = self.judging.open_order(&mut planner, axes, now)? {
@@ -101,7 +102,7 @@ impl Session {
         self.commanded.activity.program().is_some_and(Tracking::follows_now)
     }
 
-    /// When the clock calls for the next look.
+    /// Returns the time of the next planner update.
     pub(super) fn follow_due(&self) -> Option<Instant> {
         self.commanded.activity.program()?.due()
     }
@@ -115,7 +116,7 @@ impl Session {
         let Some(track) = self.commanded.activity.program_mut() else { return };
         if let Some(measured) = measured {
             track.compare(measured, axis_count, half_beam, on_target);
-            // Known for the next target, too.
+            // Keep the rates for the next target, too.
             self.setup.learn_rates(track.planner.rates_deg_s());
             if track.is_blind() {
                 let name = track.name();
@@ -176,7 +177,7 @@ impl Session {
         track.look_at(now.steady + settings.period());
         let latency = Duration::try_from_secs_f64(settings.latency_s).unwrap_or_default();
         let axes = track.axes(measured, latency);
-        // The answer brings the next look.
+        // The answer triggers the next update.
         if let Some(order) = track.planner.path_order(now.utc, axes).filter(PathOrder::may_detour) {
             return self.judging.plan(order);
         }
@@ -202,14 +203,14 @@ impl Session {
                     track.sent(next, aim, route.then.is_some(), now.steady);
                 }
             }
-            // It waits at the edge, and goes on once the way is free.
+            // The track waits at the edge, and continues once the path is free.
             Err(Refusal::Forbidden { barrier, direction: at }) => {
                 let track = self.commanded.activity.program_mut();
                 if track.is_some_and(|track| track.block(now.steady)) {
                     self.tell(Event::NotSent(Refusal::Forbidden { barrier, direction: at }));
                 }
             }
-            // It will be known later.
+            // The missing information will arrive later.
             Err(
                 Refusal::BeingJudged
                 | Refusal::PositionUnknown
@@ -221,8 +222,8 @@ impl Session {
         }
     }
 
-    /// Ends the track of a fixed direction: the antenna goes there and stays, and nothing corrects
-    /// it any more.
+    /// Ends the track of a fixed direction: the antenna goes there and stays without further
+    /// corrections.
     pub(super) fn end_at_target(&mut self, now: Moment) {
         let measured = self.gate.state().measured;
         let Some(track) = self.commanded.activity.program_mut() else { return };
@@ -236,7 +237,7 @@ impl Session {
             Ok(None) | Err(_) => None,
         };
         match slew {
-            // It replaces the motion under way, as each position of the track did.
+            // The slew replaces the running motion, like each position of the track.
             Some(slew) => self.commanded.activity = Activity::GoTo(GoTo { parks: false, slew }),
             None => self.leave_for(Activity::Hold(None), now),
         }
@@ -247,26 +248,27 @@ impl Session {
         self.give_up(Event::CannotProgramTrack(name, problem), now);
     }
 
-    /// A position was not answered and had no effect. Returns `true` if another may be sent.
+    /// Records a position without an answer or effect. Returns `true` if the track may send another
+    /// position.
     pub(super) fn may_send_another(&mut self) -> bool {
         self.commanded.activity.last_program_mut().is_some_and(Tracking::lose)
     }
 
-    /// Plans the next position of these axes from where they are, whatever was sent before.
+    /// Plans the next position of these axes from their current angles, and ignores sent positions.
     pub(super) fn plan_anew(&mut self, axes: [bool; 2]) {
         if let Some(track) = self.commanded.activity.last_program_mut() {
             track.planner.forget_sent_of(axes);
         }
     }
 
-    /// The unit accepted a position.
+    /// Records that the unit accepted a position.
     pub(super) fn position_taken(&mut self) {
         if let Some(track) = self.commanded.activity.last_program_mut() {
             track.is_taken();
         }
     }
 
-    /// New bounds of the antenna.
+    /// Applies new bounds of the antenna.
     pub(super) fn keep_within(&mut self, bounds: Bounds) {
         self.gate.keep_within(bounds);
         if let Some(track) = self.commanded.activity.program_mut() {
@@ -274,16 +276,16 @@ impl Session {
         }
     }
 
-    /// The unit was read anew after it was out of reach for `lost`: commands from the earlier
-    /// link may be lost, and somebody may have gone to the antenna.
+    /// Resumes the track after the first reading since an outage of length `lost`: commands on the
+    /// earlier link may be lost, and somebody may have changed the antenna.
     pub(super) fn follow_on(&mut self, lost: Duration, now: Moment) {
         let Some(track) = self.commanded.activity.program_mut() else { return };
-        // A comparison that is pending stays pending.
+        // A pending comparison stays pending.
         let unchecked = track.interrupt();
         if self.setup.resumes_at_once(lost) && unchecked.is_none() {
             return;
         }
-        // A second short outage does not spare the unit the comparison after the first.
+        // A second short outage must not skip the comparison after the first.
         let lost = lost + unchecked.unwrap_or_default();
         if !self.gate.explains_position() {
             return self.await_operator(lost, Some(Unlike::Position));
@@ -308,7 +310,7 @@ impl Session {
         if self.commanded.activity.program().is_none() {
             return;
         }
-        // A halt would end the track, which is kept for the operator's answer.
+        // A halt would end the track, so keep it aside for the operator's answer.
         let program = std::mem::replace(&mut self.commanded.activity, Activity::Standby);
         self.halt_quietly(now);
         self.commanded.activity = program;
@@ -318,7 +320,7 @@ impl Session {
         self.await_operator(lost, None);
     }
 
-    /// The operator lets it go on.
+    /// Resumes the track on the operator's decision.
     pub(super) fn resume(&mut self) {
         if let Some(track) = self.commanded.activity.program_mut() {
             track.resume();

@@ -1,4 +1,4 @@
-//! Compares a unit after an outage before a target is tracked on.
+//! Comparison of a unit after an outage, before its track resumes.
 
 use super::{
     Session,
@@ -11,23 +11,23 @@ use crate::{
 };
 
 impl Session {
-    /// The link goes: remembers what the unit was like, unless a comparison with an earlier
-    /// state is still pending.
+    /// Stores the state of the unit at the end of its link, unless a comparison with an earlier
+    /// state is pending.
     pub(super) fn remember_likeness(&mut self) {
-        // After a link that brought no reading the unit is compared with the one before.
+        // After a link without a reading, compare the unit with its state before that link.
         if !self.contact.is_unread() && self.recheck().is_none() {
             self.contact.comparison.remember(self.gate.state());
         }
     }
 
-    /// The comparison that is pending.
+    /// Returns the pending comparison.
     pub(super) fn recheck(&self) -> Option<Recheck> {
         let track = self.commanded.activity.program().and_then(Tracking::recheck);
         track.or(self.contact.comparison.pending())
     }
 
-    /// Compares the unit after an outage. A track resumes once it has proved to be as before;
-    /// otherwise the operator is asked.
+    /// Compares the unit after an outage. If the unit is unchanged, resumes the track; otherwise
+    /// asks the operator.
     pub(super) fn watch_likeness(&mut self, now: Moment) {
         let recheck = self.recheck().filter(|_| !self.contact.is_unread());
         let Some(Recheck { begun, lost }) = recheck else { return };

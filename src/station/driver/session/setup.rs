@@ -1,4 +1,4 @@
-//! The settings of an antenna, and what follows from them and from the make of its unit.
+//! Settings of an antenna, and values derived from them and from the make of its unit.
 
 use std::time::Duration;
 
@@ -14,7 +14,7 @@ use crate::{
 /// Assumed sway of a standing axis before it is measured, degrees.
 const MAX_SWAY_DEG: f64 = 1.0;
 
-/// The antenna's settings.
+/// Settings of the antenna.
 pub(super) struct Setup {
     name: String,
     variant: &'static Variant,
@@ -22,11 +22,11 @@ pub(super) struct Setup {
     track_config: TrackConfig,
     /// Limits for judging a pass that the unit tracks on its own.
     ability: Ability,
-    /// When program track resumes by itself after the antenna was out of reach.
+    /// Condition under which program track resumes automatically after an outage.
     resume: Resume,
-    /// After a shorter time it resumes in any case.
+    /// Max outage after which program track always resumes.
     resume_after: Duration,
-    /// The sway that the operator allows, degrees.
+    /// Configured sway of the antenna, degrees.
     sway_deg: f64,
     /// Response to somebody else driving the antenna into a keep-out or near the Sun.
     monitor: Monitor,
@@ -60,7 +60,7 @@ impl Setup {
         self.variant.track_offsets
     }
 
-    /// Name of an axis; empty if the unit has no such axis.
+    /// Returns the name of an axis; empty if the unit has no such axis.
     pub(super) fn axis_name(&self, axis: usize) -> Name {
         self.can().axes.get(axis).copied().unwrap_or_default()
     }
@@ -69,7 +69,6 @@ impl Setup {
         self.park
     }
 
-    /// The motion to the park position.
     pub(super) fn park_motion(&self) -> Motion {
         let has_elevation = self.can().has_elevation();
         Motion::Position {
@@ -95,12 +94,12 @@ impl Setup {
         self.monitor == Monitor::Stop
     }
 
-    /// Returns `true` if an outage of this length is too short to look at the unit again.
+    /// Returns `true` if an outage of this length is too short for a new comparison of the unit.
     pub(super) fn resumes_at_once(&self, lost: Duration) -> bool {
         lost <= self.resume_after
     }
 
-    /// Returns `true` if the operator must be asked after a longer outage.
+    /// Returns `true` if Azel must ask the operator after a longer outage.
     pub(super) fn asks_to_resume(&self) -> bool {
         self.resume == Resume::Ask
     }
@@ -110,8 +109,8 @@ impl Setup {
         self.figures_with(measured_sway_deg.unwrap_or_default())
     }
 
-    /// Returns the figures for alarms: assumes [`MAX_SWAY_DEG`] until the sway is measured, to avoid false
-    /// alarms.
+    /// Returns the figures for alarms: assumes [`MAX_SWAY_DEG`] until the sway is measured, to
+    /// avoid false alarms.
     pub(super) fn alarm_figures(&self, measured_sway_deg: Option<f64>) -> Figures {
         self.figures_with(measured_sway_deg.unwrap_or(MAX_SWAY_DEG))
     }
@@ -120,15 +119,15 @@ impl Setup {
         Figures::new(self.can(), self.sway_deg.max(measured_sway_deg))
     }
 
-    /// Largest angle off target of an antenna whose beam holds it: half the beam, and what rounding
-    /// both angles to their resolution makes at most, with the noise.
+    /// Returns the max angle off target while the beam contains the target: half the beam, plus the
+    /// max rounding error of both angles and the noise.
     pub(super) fn in_beam(&self, figures: Figures) -> Angle {
         let error_deg = self.can().standstill.resolution_deg + figures.tolerance_deg();
         self.ability.half_beam + Angle::from_degrees(error_deg)
     }
 
-    /// Largest angle off target of a working antenna: that, the tolerance of an arrival, and as much
-    /// again of rounding, for a unit that cuts its angles off.
+    /// Returns the max angle off target of a working antenna: [`Self::in_beam`], the arrival
+    /// tolerance, and a second rounding error for a unit that truncates its angles.
     pub(super) fn on_target(&self, figures: Figures) -> Angle {
         let can = self.can();
         let more_deg = can.standstill.resolution_deg + can.arrives_within_deg;

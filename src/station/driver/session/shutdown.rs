@@ -1,4 +1,4 @@
-//! The end of a session: motions are stopped first.
+//! End of a session, which stops motions first.
 
 use std::time::Duration;
 
@@ -10,12 +10,11 @@ use super::{
 };
 use crate::{clock::Instant, driver::Stream};
 
-/// Time limit for standstill at the end of a session, in addition to what its proof takes.
+/// Timeout of standstill at the end of a session, besides the time of its proof.
 const STANDSTILL_WITHIN: Duration = Duration::from_millis(1500);
 
 impl Session {
-    /// Ends a session: a jog must not outlive it. Waits until what is owed is proved, or the time
-    /// limit.
+    /// Ends a session and any jog. Waits until all debts are settled, or until the timeout.
     pub(super) async fn shut_down(
         &mut self,
         reader: &mut ReadHalf<Box<dyn Stream>>,
@@ -32,7 +31,7 @@ impl Session {
         let deadline = start.steady + STANDSTILL_WITHIN + self.figures().gap();
         while (self.is_in_debt() || self.owes_offsets()) && self.now().steady < deadline {
             let now = self.now();
-            // The other checks of a session could begin a motion again.
+            // The other checks of a session could start a motion again.
             self.watch_auto_track(now);
             self.watch_unit_offsets(now);
             if let Err(loss) = self.send(writer).await {
@@ -63,19 +62,19 @@ impl Session {
         if self.stop.is_under_way() {
             tracing::error!(antenna = self.setup.name(), "standstill was not proved at the end");
         }
-        // Closed in order, so that the last bytes are not cut off.
+        // Close in order, so that the last bytes are not lost.
         let _ = clock.timeout(WRITE, writer.shutdown()).await;
     }
 
-    /// When there is something to send or to check.
+    /// Returns the time of the next output or check.
     fn next_update(&mut self, deadline: Instant) -> Instant {
         let now = self.now();
         let due = self.gate.device().due(now).max(now.steady + MIN_WAIT);
         deadline.min(self.halt_due().map_or(due, |halt| halt.min(due)))
     }
 
-    /// The station has let go of this antenna while something is owed to its unit: tries until
-    /// that is proved, or another session of the unit takes it over.
+    /// Settles the debts after the station has dropped this antenna: retries until they are
+    /// settled, or until another session of the unit takes them over.
     pub(super) async fn pay_debts(&mut self) {
         while self.is_in_debt() && !self.owed.debts().is_relieved(self.stop.is_under_way()) {
             if let Ok(Ok(stream)) = self.clock.timeout(CONNECT, self.contact.dial()).await {
@@ -85,7 +84,7 @@ impl Session {
                 self.contact.connected(now.steady);
                 self.owed.auto_track_asked(None);
                 if self.stop.is_under_way() {
-                    // The STOP goes out first on this link, too.
+                    // The STOP also goes out first on this link.
                     self.halt_quietly(now);
                 }
                 self.shut_down(&mut reader, &mut writer).await;

@@ -1,13 +1,13 @@
-//! A unit that stops answering while Azel has metal moving.
+//! Silence of a unit during a motion of Azel.
 //!
-//! A single lost or late reply is not silence: during a motion the controllers ask again at
-//! once, and only a second missing reply counts.
+//! A single lost or late reply is no silence: during a motion, the controllers repeat the query at
+//! once. Only a second missing reply counts.
 
 use std::time::Duration;
 
 use crate::clock::Instant;
 
-/// Maximum time from the first overdue reply to the report.
+/// Max time from the first overdue reply to the report.
 const TOLD_WITHIN: Duration = Duration::from_secs(1);
 
 /// Times of the writes since the unit last answered.
@@ -16,14 +16,14 @@ pub(super) struct Silence {
     replies: u64,
     first: Option<Instant>,
     second: Option<Instant>,
-    /// Azel has metal moving.
+    /// `true` while a motion of Azel runs.
     is_watched: bool,
-    /// Azel has reported silence, and no reply has come since.
+    /// `true` if Azel has reported silence and no reply has come since.
     is_reported: bool,
 }
 
 impl Silence {
-    /// Bytes were written when `replies` replies had come.
+    /// Records written bytes, after the total of `replies` replies.
     pub(super) fn wrote(&mut self, replies: u64, now: Instant) {
         self.count(replies);
         if self.first.is_none() {
@@ -33,14 +33,14 @@ impl Silence {
         }
     }
 
-    /// Any reply ends the silence.
+    /// Resets the silence after any reply.
     fn count(&mut self, replies: u64) {
         if replies != self.replies {
             *self = Self { replies, is_watched: self.is_watched, ..Self::default() };
         }
     }
 
-    /// Questions asked before the motion count as missing only from now on.
+    /// Starts or ends the watch. Queries from before the motion count as missing only from now on.
     pub(super) fn watch(&mut self, is_watched: bool, replies: u64, now: Instant) {
         self.count(replies);
         if is_watched && !self.is_watched {
@@ -50,7 +50,7 @@ impl Silence {
         self.is_watched = is_watched;
     }
 
-    /// When to report silence if nothing that was asked is answered.
+    /// Returns the time at which silence must be reported if no reply arrives.
     pub(super) fn due(&self, prompt: Duration) -> Option<Instant> {
         if !self.is_watched || self.is_reported {
             return None;
@@ -71,7 +71,7 @@ impl Silence {
         self.is_reported
     }
 
-    /// The operator has looked at the antenna, or leaves it to others.
+    /// Forgets the silence: the operator has checked the antenna, or leaves it to others.
     pub(super) fn forget(&mut self) {
         self.is_reported = false;
     }

@@ -1,4 +1,4 @@
-//! Ends what must not go on while the computer sleeps, or after its clock was set.
+//! End of motions before the computer sleeps, or after a step of its clock.
 
 use super::Session;
 use crate::{
@@ -8,7 +8,7 @@ use crate::{
 };
 
 impl Session {
-    /// Ends motions by hand: during the sleep nothing would.
+    /// Ends manual motions, because the session cannot end them during the sleep.
     pub(super) fn before_sleep(&mut self, awake: Awake, now: Moment) {
         if let Some(jog) = self.commanded.key.pressed() {
             let rates_deg_s = jog.rates_deg_s();
@@ -26,14 +26,14 @@ impl Session {
         self.stop.let_sleep();
     }
 
-    /// Compares the clocks with each other. After a sleep the link is opened anew: old
-    /// positions look fresh, because the steady clock stood still.
+    /// Compares the clocks with each other. After a sleep, reopens the link: old positions look
+    /// fresh, because the steady clock paused.
     pub(super) fn watch_clocks(&mut self, now: Moment) -> Option<LinkLoss> {
         let change = self.contact.clocks.compare(now, self.clock.asleep())?;
         if let Some(by_s) = change.stepped_s {
             self.tell(Event::Safety(Safety::ClockStepped { by_s, time: Some(now.utc) }));
-            // Positions follow from UTC, and only the operator can say which of the two times is
-            // right.
+            // Tracked positions depend on UTC, and only the operator knows which of the two times
+            // is right.
             self.suspend_following(change.steady, now);
         }
         let lasted = change.slept?;

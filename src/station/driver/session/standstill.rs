@@ -1,4 +1,4 @@
-//! Standstill is proved by angles, not by what a unit says of its drives.
+//! Proof of standstill by angles, independent of the unit's drive reports.
 
 use std::time::Duration;
 
@@ -7,54 +7,54 @@ use crate::{
     device::{Capabilities, Measured},
 };
 
-/// When two positions count as the same.
+/// Limits within which two positions count as the same.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Figures {
-    /// Largest difference between two angles of a standing axis, degrees.
+    /// Max difference between two angles of a standing axis, degrees.
     tolerance_deg: f64,
-    /// Width of the range in which a standing axis is read, degrees.
+    /// Width of the range of readings of a standing axis, degrees.
     rest_width_deg: f64,
-    /// Time in which the unit's slowest motion shows.
+    /// Time after which the unit's slowest motion becomes visible.
     gap: Duration,
     /// Number of axes that belong to the antenna.
     axes: usize,
 }
 
 impl Figures {
-    /// `sway_deg`: how far the antenna may sway while it stands.
+    /// Computes the limits. `sway_deg`: max sway of the standing antenna.
     pub(super) fn new(can: Capabilities, sway_deg: f64) -> Self {
         let tolerance_deg = can.standstill.resolution_deg / 2.0 + sway_deg;
-        // Each look may be rounded by half a step.
+        // Each reading may be rounded by half a step.
         let shows_deg = can.standstill.resolution_deg * 1.5 + sway_deg;
         let gap_s = shows_deg / can.standstill.slowest_deg_s;
         let gap = Duration::try_from_secs_f64(gap_s).unwrap_or(Duration::from_secs(1));
-        // An angle between two steps is read as either.
+        // An angle between two steps may read as either step.
         let rest_width_deg = can.standstill.resolution_deg + sway_deg;
         Self { tolerance_deg, rest_width_deg, gap, axes: can.axis_count() }
     }
 
-    /// Time between two positions that prove standstill.
+    /// Returns the time between two positions that prove standstill.
     pub(super) fn gap(self) -> Duration {
         self.gap
     }
 
-    /// Largest difference between two angles of a standing axis, degrees.
+    /// Returns the max difference between two angles of a standing axis, degrees.
     pub(super) fn tolerance_deg(self) -> f64 {
         self.tolerance_deg
     }
 
-    /// Width of the range in which a standing axis is read, degrees.
+    /// Returns the width of the range of readings of a standing axis, degrees.
     pub(super) fn rest_width_deg(self) -> f64 {
         self.rest_width_deg
     }
 
-    /// Returns `true` if an axis may stand and read both angles, degrees.
+    /// Returns `true` if a standing axis may report both angles, degrees.
     pub(super) fn are_same_deg(self, before_deg: f64, after_deg: f64) -> bool {
         wrapped_deg(after_deg - before_deg).abs() <= self.tolerance_deg
     }
 
-    /// The axis that has turned most between two positions, and by how many degrees. `None` if
-    /// none has turned by more than a standing axis may.
+    /// Returns the axis with the largest turn between two positions, and the turn in degrees.
+    /// Returns `None` if no axis has turned by more than a standing axis may.
     pub(super) fn turned(self, before: &Measured, after: &Measured) -> Option<(usize, f64)> {
         let pairs = before.axes.iter().zip(&after.axes).take(self.axes).enumerate();
         pairs
@@ -65,60 +65,60 @@ impl Figures {
             .max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))
     }
 
-    /// The first axis without an angle in one of the positions.
+    /// Returns the first axis without an angle in one of the positions.
     fn blind_axis(self, before: &Measured, after: &Measured) -> Option<usize> {
         let pairs = before.axes.iter().zip(&after.axes).take(self.axes);
         pairs.into_iter().position(|(a, b)| a.angle_deg.is_none() || b.angle_deg.is_none())
     }
 }
 
-/// The short way round: an axis that stands at north may read 0 or 360.
+/// Returns the shorter turn, degrees: a standing axis at north may read 0 or 360.
 fn wrapped_deg(angle_deg: f64) -> f64 {
     (angle_deg + 180.0).rem_euclid(360.0) - 180.0
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Proof {
-    /// Two positions agree.
+    /// Proof by two equal positions.
     Angles,
-    /// This axis has no angle; its flags say that it stands.
+    /// Proof by the flags of this axis, which has no angle.
     Flags { axis: usize },
 }
 
-/// Longest time that a reply takes on an ordinary line.
+/// Max normal variation of a reply time.
 const UNEVEN: Duration = Duration::from_millis(100);
 
-/// The positions measured since a halt.
+/// Positions measured since a halt.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Looks {
     first: Option<Measured>,
-    /// When the last position was asked for.
+    /// Request time of the last position.
     last: Option<Instant>,
-    /// The last position after which another one was requested.
+    /// Last position after which another one was requested.
     asked_after: Option<Instant>,
-    /// Two positions differed, whatever the flags say.
+    /// `true` if two positions differed, regardless of the flags.
     turned: bool,
 }
 
 impl Looks {
-    /// When to ask for a position that proves standstill if it agrees with the first one.
+    /// Returns the request time of a position that proves standstill if it equals the first one.
     pub(super) fn next(&self, figures: Figures) -> Option<Instant> {
         let received = |first: &Measured| first.received + figures.gap.saturating_sub(UNEVEN);
         self.first.map(|first| (first.requested + figures.gap).max(received(&first)))
     }
 
-    /// Returns `true` if another STOP could help: not while all positions agree.
+    /// Returns `true` if another STOP could help, because not all positions agree.
     pub(super) fn want_stop(&self) -> bool {
         self.first.is_none() || self.turned
     }
 
-    /// Returns `true` while no position has been requested since the last one came in: a question
-    /// that was already out may have been asked too early to prove anything.
+    /// Returns `true` until a request follows the last position. Azel may have sent an earlier
+    /// query too soon for a proof.
     pub(super) fn awaits_look(&self) -> bool {
         self.last != self.asked_after
     }
 
-    /// Returns `true`, once for each position, when the next one must be requested.
+    /// Returns `true` once for each position, when the session must request the next one.
     pub(super) fn is_due(&mut self, figures: Figures, now: Instant) -> bool {
         let is_due = self.awaits_look() && self.next(figures).is_some_and(|at| now >= at);
         if is_due {
@@ -127,8 +127,8 @@ impl Looks {
         is_due
     }
 
-    /// Takes a position that was asked for after the halt. `is_at_rest`: the unit's flags for
-    /// everything it moves.
+    /// Takes a position requested after the halt. `is_at_rest`: the unit's flags report standstill
+    /// of all its axes.
     pub(super) fn take(
         &mut self,
         look: Measured,
@@ -137,7 +137,8 @@ impl Looks {
         figures: Figures,
     ) -> Option<Proof> {
         self.last = Some(look.requested);
-        // Positions of two links prove nothing: in between anybody may have moved the antenna.
+        // Positions of two links prove nothing, because somebody may have moved the antenna in
+        // between.
         let on_link =
             self.first.filter(|first| link_since.is_some_and(|begun| first.requested >= begun));
         let first = on_link.filter(|first| figures.turned(first, &look).is_none());
@@ -147,7 +148,7 @@ impl Looks {
             return None;
         }
         let first = *self.first.insert(first.unwrap_or(look));
-        // Each may have been measured at any time between its question and its reply.
+        // The unit may have measured each position at any time between its query and its reply.
         let asked = look.requested.saturating_duration_since(first.requested);
         let apart = look.requested.saturating_duration_since(first.received);
         if asked < figures.gap || apart + UNEVEN < figures.gap {
@@ -160,22 +161,22 @@ impl Looks {
     }
 }
 
-/// Watches an antenna whose flags say that it stands.
+/// Watch over an antenna whose flags report standstill.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Rest {
-    /// Since when the flags say so, and the first position that counts.
+    /// Start of the reported standstill, and the first position that counts.
     resting: Option<(Instant, Option<Measured>)>,
-    /// The last motion of Azel that has shown in the flags or the angles.
+    /// Last motion of Azel that the flags or the angles have shown.
     shown: Option<Instant>,
     is_reported: bool,
 }
 
 impl Rest {
-    /// How long axes may run on after their flags have come to rest.
+    /// Max time for which axes continue after their flags report rest.
     const RUN_OUT: Duration = Duration::from_secs(3);
 
-    /// Takes a position. `began`: when Azel last started a motion. Returns the axis that turns
-    /// although the flags say that it stands, and by how many degrees; once for each rest.
+    /// Takes a position. `began`: start of Azel's last motion. Returns the axis that turns although
+    /// the flags report standstill, and its turn in degrees, once per rest.
     pub(super) fn take(
         &mut self,
         look: Measured,
@@ -193,7 +194,7 @@ impl Rest {
         }
         let anchor = anchor.get_or_insert(look);
         let turned = figures.turned(anchor, &look)?;
-        // A short motion may begin and end between two positions. The axes may run on after it.
+        // A short motion may begin and end between two positions. The axes may continue after it.
         let is_new = began.is_some_and(|began| {
             self.shown < Some(began)
                 && look.received > began
@@ -284,11 +285,11 @@ mod tests {
             let asked = looks.next(figures()).unwrap();
             assert!(asked >= start + gap && looks.is_due(figures(), far));
             assert!(!looks.is_due(figures(), far), "it has been requested");
-            // This question was out already.
+            // This query was already sent.
             let early = late_by(look(start, 0.1, [Some(10.0), Some(69.0)]));
             assert_eq!(looks.take(early, true, Some(start), figures()), None);
             assert!(looks.is_due(figures(), far), "another one is needed");
-            // This reply comes at once.
+            // This reply arrives at once.
             let next = Measured { requested: asked, received: asked, ..first };
             assert_eq!(looks.take(next, true, Some(start), figures()), Some(Proof::Angles));
         }
@@ -328,8 +329,8 @@ mod tests {
         assert!((3.0..8.0).contains(&at_s), "{at_s}");
     }
 
-    /// Times at which an axis that starts to turn after 10 s is said to turn at rest, where Azel
-    /// starts a motion at 9.95 s. Positions come every 0.1 s.
+    /// Returns the times at which the watch reports an axis that turns at rest. The axis starts to
+    /// turn after 10 s; Azel starts a motion at 9.95 s. Positions come every 0.1 s.
     fn contradictions_s(first_deg: impl Fn(f64) -> f64) -> Vec<f64> {
         let start = Instant::now();
         let began = start + Duration::from_millis(9950);

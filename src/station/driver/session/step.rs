@@ -1,4 +1,4 @@
-//! One step at a time: the gate judges the next one by a position that shows the last.
+//! Single steps: the gate judges the next step by a position that shows the last one.
 
 use super::Session;
 use crate::{
@@ -8,7 +8,7 @@ use crate::{
 };
 
 impl Session {
-    /// Refused while the antenna moves, or the last step may still begin to.
+    /// Starts a step. Refuses while the antenna moves, or while the last step may still start.
     pub(super) fn step(&mut self, steps_deg: [f64; 2], now: Moment) {
         let [x_deg, y_deg] = steps_deg;
         let motion = Motion::Step { x_deg, y_deg };
@@ -20,7 +20,7 @@ impl Session {
         }
     }
 
-    /// A step is over when a state that was asked for after it shows standstill.
+    /// Ends a step when a state requested after it shows standstill.
     pub(super) fn watch_step(&mut self, _: Moment) {
         let waits = self.gate.device().motion_under_way();
         self.commanded.follow_step(self.gate.state().measured, waits);

@@ -1,4 +1,4 @@
-//! A halt, from its first byte to proved standstill.
+//! Halt, from its first byte to proved standstill.
 
 use std::time::Duration;
 
@@ -13,36 +13,35 @@ use crate::{
     driver::before_sleep::Awake,
 };
 
-/// A halt that is not proved by then is reported.
+/// Max time until the proof of a halt; Azel reports a later one.
 const PROOF: Duration = Duration::from_secs(3);
-/// Additional time where the proof itself takes long.
+/// Additional time for a proof that itself takes long.
 const BEYOND_PROOF: Duration = Duration::from_secs(1);
-/// How long the STOP button shows that everything has stopped.
+/// Duration for which the STOP button shows that everything has stopped.
 const SHOWN: Duration = Duration::from_secs(10);
 
 #[derive(Debug, Clone, PartialEq)]
 struct Halting {
     begun: Instant,
-    /// The positions asked for since it was sent.
+    /// Positions requested since the halt was sent.
     looks: Looks,
     sent_at: Instant,
-    /// When to send it again; a repeated STOP is harmless.
+    /// Time of the next repetition; a repeated STOP is harmless.
     again_at: Instant,
-    /// The operator pressed STOP; otherwise it ends a motion.
+    /// `true` if the operator pressed STOP; `false` for the end of a motion.
     pressed: bool,
-    /// Azel has reported that standstill is not proved.
+    /// `true` if Azel has reported that standstill is not proved.
     is_reported: bool,
 }
 
 impl Halting {
     fn extent_again(&self) -> Extent {
-        // A halt that has to be repeated no longer trusts the known state: a track may be on that
-        // was read as off.
+        // A repeated halt no longer trusts the known state: a track that read as off may be on.
         if self.pressed { Extent::Everything } else { Extent::Track }
     }
 
-    /// Time from STOP until Azel reports that standstill is not proved. While all positions agree,
-    /// only late replies delay the proof.
+    /// Returns the time from STOP until Azel reports that standstill is not proved. While all
+    /// positions agree, only late replies delay the proof.
     fn reported_after(&self, figures: Figures) -> Duration {
         let default = PROOF.max(figures.gap() + BEYOND_PROOF);
         if self.looks.want_stop() { default } else { default + BEYOND_PROOF }
@@ -51,34 +50,34 @@ impl Halting {
 
 #[derive(Debug, Clone, PartialEq, Default)]
 enum Stage {
-    /// No halt is under way.
+    /// No current halt.
     #[default]
     Ready,
-    /// Sent, and standstill is not proved.
+    /// Sent halt without proved standstill.
     UnderWay(Box<Halting>),
-    /// Standstill was proved at this time, after a pressed STOP.
+    /// Standstill proved at this time, after an operator's STOP.
     Proved { at: Instant },
 }
 
-/// What a look at a halt calls for.
+/// Outcome of a check of a halt.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct HaltLook {
-    /// The halt is over.
+    /// Proof of standstill, which ends the halt.
     pub(super) proof: Option<Proof>,
-    /// The halt must be sent again.
+    /// Extent of a required repetition of the halt.
     pub(super) send_again: Option<Extent>,
-    /// Another position must be requested.
+    /// `true` if the session must request another position.
     pub(super) asks_position: bool,
-    /// The operator must know that standstill is not proved.
+    /// `true` if the operator must learn that standstill is not proved.
     pub(super) is_overdue: bool,
 }
 
-/// STOP of an antenna, pressed or at the end of a motion.
+/// STOP of an antenna, by the operator or at the end of a motion.
 pub(super) struct Stop {
     stage: Stage,
-    /// Bytes of a halt, to be written before anything else.
+    /// Bytes of a halt that the session writes before anything else.
     bytes: Vec<u8>,
-    /// Delays the computer's sleep while a halt is under way.
+    /// Token that delays the computer's sleep during a halt.
     awake: Option<Awake>,
     pub(super) guard: Guard,
 }
@@ -92,18 +91,17 @@ impl Stop {
         matches!(self.stage, Stage::UnderWay(_))
     }
 
-    /// Returns `true` while a STOP that the operator pressed is not proved.
+    /// Returns `true` until an operator's STOP is proved.
     pub(super) fn is_pressed(&self) -> bool {
         self.halting().is_some_and(|halting| halting.pressed)
     }
 
-    /// Returns `true` unless a halt is under way that is not overdue yet: until then the axes may
-    /// run out.
+    /// Returns `true` unless a halt runs that is not overdue yet: until then, the axes may coast.
     pub(super) fn has_run_out(&self) -> bool {
         self.halting().is_none_or(|halting| halting.is_reported)
     }
 
-    /// Extent with which to send the current halt again.
+    /// Returns the extent with which to repeat the current halt.
     pub(super) fn extent(&self) -> Option<Extent> {
         self.halting().map(Halting::extent_again)
     }
@@ -130,12 +128,11 @@ impl Stop {
         }
     }
 
-    /// Begins a halt, or joins the one that is under way. `patience`: time after which the halt is
-    /// sent again.
+    /// Begins a halt, or joins the current one. `patience`: time until the repetition.
     pub(super) fn begin(&mut self, pressed: bool, patience: Duration, now: Instant) {
         let again_at = now + patience;
         match &mut self.stage {
-            // Pressing again does not delay the report that standstill is not proved.
+            // A second press must not delay the report that standstill is not proved.
             Stage::UnderWay(halting) => {
                 halting.again_at = again_at;
                 halting.pressed |= pressed;
@@ -153,8 +150,8 @@ impl Stop {
         }
     }
 
-    /// Looks at the last state of the unit for a proof of standstill. `is_at_rest`: the unit's
-    /// flags for its axes and program.
+    /// Checks the last state of the unit for a proof of standstill. `is_at_rest`: the unit's flags
+    /// report its axes and program at rest.
     pub(super) fn look(
         &mut self,
         state: &AntennaState,
@@ -165,8 +162,7 @@ impl Stop {
         now: Instant,
     ) -> HaltLook {
         let Stage::UnderWay(halting) = &mut self.stage else { return HaltLook::default() };
-        // A halt that the operator did not press leaves other things that the unit turns
-        // alone.
+        // A halt that the operator did not press ignores other motions of the unit.
         let is_at_rest = is_at_rest && !(halting.pressed && state.turns_besides);
         // A position from before the STOP proves nothing.
         let look = state.measured.filter(|measured| measured.requested >= halting.sent_at);
@@ -180,7 +176,7 @@ impl Stop {
         let is_overdue = is_late && !std::mem::replace(&mut halting.is_reported, true);
         let is_due = now >= halting.again_at && halting.looks.want_stop();
         let asks_position = halting.looks.is_due(figures, now);
-        // Without a link, the halt is the first thing sent on the next one.
+        // Without a link, the session sends the halt first on the next link.
         let sends_again = is_due && is_open;
         if sends_again {
             halting.again_at = now + patience;
@@ -189,14 +185,14 @@ impl Stop {
         HaltLook { proof: None, send_again, asks_position, is_overdue }
     }
 
-    /// Standstill is proved. Returns `true` if the operator had pressed STOP.
+    /// Ends the halt after proved standstill. Returns `true` if the operator had pressed STOP.
     pub(super) fn end(&mut self, now: Instant) -> bool {
         let is_pressed = self.is_pressed();
         self.stage = if is_pressed { Stage::Proved { at: now } } else { Stage::Ready };
         is_pressed
     }
 
-    /// The operator has seen that the antenna stands: nothing is left to be sent or proved.
+    /// Ends the halt after the operator has confirmed standstill; drops all remaining output.
     pub(super) fn end_unproved(&mut self) {
         if self.is_under_way() {
             self.stage = Stage::Ready;
@@ -204,14 +200,14 @@ impl Stop {
         self.bytes.clear();
     }
 
-    /// A motion begins: the earlier proof no longer counts.
+    /// Forgets an earlier proof, because a motion begins.
     pub(super) fn forget(&mut self) {
         if let Stage::Proved { .. } = self.stage {
             self.stage = Stage::Ready;
         }
     }
 
-    /// The outline of the STOP button fades after a while.
+    /// Removes the outline of the STOP button after a while.
     pub(super) fn forget_old(&mut self, now: Instant) {
         if let Stage::Proved { at } = self.stage
             && now.saturating_duration_since(at) >= SHOWN
@@ -220,7 +216,7 @@ impl Stop {
         }
     }
 
-    /// When the halt must be looked at again.
+    /// Returns the time of the next check of the halt.
     pub(super) fn due(&self, figures: Figures, is_open: bool) -> Option<Instant> {
         match &self.stage {
             Stage::UnderWay(halting) => {
@@ -236,7 +232,8 @@ impl Stop {
         }
     }
 
-    /// These bytes are the next to be written. They take the place of older ones: one halt is enough.
+    /// Queues these bytes as the next to write. They replace older ones, because one halt is
+    /// enough.
     pub(super) fn queue(&mut self, bytes: Vec<u8>) {
         self.bytes = bytes;
     }

@@ -1,5 +1,4 @@
-//! Supervises the intent: the unit's answers, whether it does what was requested, and when
-//! that ends.
+//! Supervision of the intent: the unit's answers, its actual behaviour, and the end of the intent.
 
 use std::time::Duration;
 
@@ -17,9 +16,9 @@ use crate::{
     device::{AxisMotion, ControllerEvent, Motion, MotionRequest, Phase, Pointing, TrackTarget},
 };
 
-/// Time within which an accepted command to track must show in the unit's state.
+/// Max time until an accepted track command must show in the unit's state.
 const TRACK_EFFECT: Duration = Duration::from_secs(15);
-/// An axis that has turned by less may not have been moved at all, degrees.
+/// Min turn that proves a motion of an axis, degrees.
 const TURNED_DEG: f64 = 0.05;
 
 /// One check of [`Session::supervise`].
@@ -30,7 +29,7 @@ pub(super) struct Check {
     look: fn(&mut Session, Moment),
 }
 
-/// A list of checks, each named after its function.
+/// Builds a list of checks, each with the name of its function.
 macro_rules! checks {
     ($($check:ident,)*) => {
         &[$(Check {
@@ -41,19 +40,18 @@ macro_rules! checks {
     };
 }
 
-/// All checks, in their order: first reports of the unit, then motions that have to end, then
-/// debts, then motions that begin. A check may rely on those above it; none may be left out
-/// (`supervise/tests.rs`).
+/// All checks in order: reports of the unit, ending motions, debts, beginning motions. A check may
+/// rely on the checks above it; every check is necessary (`supervise/tests.rs`).
 pub(super) const CHECKS: &[Check] = checks![
     watch_judging,
     take_events,
-    // A unit that is found after an outage is compared before anything goes on.
+    // After an outage, compare the unit before any activity continues.
     report_found,
     watch_likeness,
     watch_program,
     watch_hands,
     resolve_doubt,
-    // Motions that have to end.
+    // These checks end motions.
     watch_jog,
     watch_effect,
     watch_step,
@@ -61,16 +59,16 @@ pub(super) const CHECKS: &[Check] = checks![
     let_sleep,
     watch_rest,
     watch_place,
-    // The gate and the monitor judge by where the axes point on the sky.
+    // The gate and the monitor use the direction of the axes on the sky.
     watch_offsets,
     watch_bounds,
     watch_standstill,
-    // Debts to the unit.
+    // These checks settle debts to the unit.
     watch_lock_out,
     watch_auto_track,
     watch_unit_offsets,
     forget_old_stop,
-    // Motions that begin, after everything that may forbid them.
+    // Begin motions only after every check that may forbid them.
     start_queued,
     watch_slew,
     watch_tracking,
@@ -80,21 +78,21 @@ pub(super) const CHECKS: &[Check] = checks![
 ];
 
 impl Session {
-    /// Carries out every check once; called after every byte, command and timer.
+    /// Runs every check once; the session calls this after every byte, command and timer.
     pub(super) fn supervise(&mut self, now: Moment) {
         for check in self.checks {
             (check.look)(self, now);
         }
     }
 
-    /// Takes what the controller has found in the answers of the unit.
+    /// Takes the controller's findings from the answers of the unit.
     fn take_events(&mut self, now: Moment) {
         while let Some(event) = self.gate.device().next_event() {
             self.take(event, now);
         }
     }
 
-    /// Keeps a track going.
+    /// Continues the current track.
     fn watch_tracking(&mut self, now: Moment) {
         match self.commanded.activity {
             Activity::ProgramTrack(_) => self.watch_follow(now),
@@ -103,10 +101,10 @@ impl Session {
         }
     }
 
-    /// The latest time for the next call of [`Self::supervise`].
+    /// Returns the latest time for the next call of [`Self::supervise`].
     pub(super) fn supervise_due(&self) -> Option<Instant> {
         let jog = self.commanded.key.pressed().map(Jog::end);
-        // A motion to a position is judged whenever a state comes in.
+        // The session judges a motion to a position at every new state, so it needs no deadline.
         let effect = match self.commanded.activity.on_board().map(|track| track.stage) {
             Some(OnBoardStage::Loading { begun } | OnBoardStage::Starting { begun })
                 if !self.stop.is_under_way() =>
@@ -128,7 +126,7 @@ impl Session {
         match event {
             ControllerEvent::Prepared(target) => self.loaded(&target, now),
             ControllerEvent::NotPrepared(target, reason) => {
-                // A target given up since then needs no report.
+                // A target that was given up since then needs no report.
                 if self.commanded.activity.on_board().is_some_and(|track| track.target == target) {
                     self.give_up(Event::CannotTrack(target, reason), now);
                 }
@@ -157,7 +155,7 @@ impl Session {
         }
     }
 
-    /// The unit holds the target: starts its program on it.
+    /// Starts the unit's program after the unit has received the target.
     fn loaded(&mut self, target: &TrackTarget, now: Moment) {
         let awaits_it = |track: &OnBoardTrack| {
             track.target == *target && matches!(track.stage, OnBoardStage::Loading { .. })
@@ -173,20 +171,19 @@ impl Session {
         }
     }
 
-    /// Ends the activity of a motion or action that does not come about.
+    /// Ends the activity of a failed motion or action.
     fn forget(&mut self, asked: MotionRequest, event: Event, now: Moment) {
         let motion = match asked {
             MotionRequest::Motion(motion) => motion,
             MotionRequest::Action(_) => return self.tell(event),
         };
         match motion {
-            // The jog belongs to a mode that has been left, but its halt ends the new one as
-            // well.
+            // The operator has already left the jog's mode, but its halt ends the new mode as well.
             Motion::Jog { .. } if self.commanded.activity.intent() == Intent::Track => {
                 self.give_up(event, now);
             }
             Motion::Jog { .. } => {
-                // The key that is still down must not send it again.
+                // The held key must not send the jog again.
                 self.commanded.key.spend();
                 self.halt_quietly(now);
                 self.tell(event);
@@ -200,19 +197,19 @@ impl Session {
         }
     }
 
-    /// A command without an answer may have reached the unit all the same: a state asked for
-    /// afterwards decides.
+    /// Resolves a command without an answer by a later state, because the unit may have received
+    /// the command.
     fn resolve_doubt(&mut self, now: Moment) {
         let doubt = self.commanded.take_doubt(self.gate.state().measured);
         let Some(Doubt { asked, before_deg, .. }) = doubt else { return };
-        // A short motion may be over before it was in doubt.
+        // A short motion may have ended before its answer was overdue.
         let turned = before_deg.zip(self.gate.axes_deg()).map_or([false; 2], |(before, after)| {
             let [first, second] = before;
             let [first_now, second_now] = after;
             [first_now - first, second_now - second].map(|deg| deg.abs() > TURNED_DEG)
         });
         if self.active() || turned.contains(&true) {
-            // A controller that sends an order for each axis may have sent only the first.
+            // A controller that sends an order for each axis may have sent only the first order.
             let mut is_open = turned.map(|turned| !turned);
             let axes = self.gate.state().measured.into_iter().flat_map(|measured| measured.axes);
             for (is_open, axis) in is_open.iter_mut().zip(axes) {
@@ -224,12 +221,12 @@ impl Session {
         }
     }
 
-    /// Reports what the unit was found doing when the link came up.
+    /// Reports the state of the unit at the first reading of a new link.
     fn report_found(&mut self, now: Moment) {
         let state = self.gate.state();
         let tracks = match state.program {
             Some(program) => program.enabled,
-            // A unit that tracks is found tracking, so its program has to be read first.
+            // Read the program first, because the unit may be tracking.
             None if self.setup.can().has_program => return,
             None => false,
         };
@@ -251,7 +248,7 @@ impl Session {
             self.contact.comparison.begin(Recheck { begun: now.steady, lost });
         }
         self.follow_on(lost, now);
-        // A slew is watched further; its outcome is still to be reported.
+        // Continue to watch a slew, whose outcome must still be reported.
         if let Some(Slew { stage: SlewStage::UnderWay { begun, .. }, .. }) =
             self.commanded.activity.slew_mut()
         {
@@ -263,7 +260,7 @@ impl Session {
                 OnBoardStage::Slewing(slew) => {
                     self.commanded.activity = Activity::GoTo(GoTo { parks: false, slew });
                 }
-                // A track that ended during the outage is not started again by itself.
+                // A track that ended during the outage must not restart automatically.
                 _ => self.commanded.activity = Activity::Standby,
             }
         }
@@ -274,8 +271,8 @@ impl Session {
         self.tell(event);
     }
 
-    /// Returns `true` if what was asked from here explains what the unit does and where it points after
-    /// an outage.
+    /// Returns `true` if Azel's commands explain the state and the position of the unit after an
+    /// outage.
     fn explains(&self, found: Found, now: Moment) -> bool {
         let slew = self.commanded.activity.slew();
         let is_under_way =
@@ -298,8 +295,8 @@ impl Session {
         }
     }
 
-    /// Reports that the unit has started to track on its own, which surprises anyone standing
-    /// beside it.
+    /// Reports that the unit has started to track on its own, which may surprise a person beside
+    /// it.
     fn watch_program(&mut self, _: Moment) {
         let Some(program) = self.gate.state().program.filter(|_| !self.contact.is_unread()) else {
             return;
@@ -310,8 +307,8 @@ impl Session {
         }
     }
 
-    /// The rest of a way round a corner. From beside the corner the rest may be blocked: a way that
-    /// leads to the same corner again would have no end.
+    /// Returns the rest of a path round a corner. Fails if the rest is blocked from beside the
+    /// corner, because another path to the same corner would never end.
     fn next_leg(
         &self,
         then: Motion,
@@ -370,8 +367,7 @@ impl Session {
         let completed = program.phase == Phase::Completed;
         let ended = !program.enabled || completed;
         match track.stage {
-            // The halt also switches off a program that is over but still on, and could start
-            // again.
+            // The halt also disables a finished program that is still on and could restart.
             OnBoardStage::Tracking if ended => {
                 self.give_up(Event::TrackingEnded { completed }, now);
             }

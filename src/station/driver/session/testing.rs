@@ -1,4 +1,4 @@
-//! A session with a simulated Satrak at the other end of a stream in memory.
+//! Session with a simulated Satrak at the other end of an in-memory stream.
 
 use std::{collections::BTreeMap, num::NonZeroU32, sync::Arc};
 
@@ -40,7 +40,7 @@ pub(in crate::driver) fn start_at(now: Timestamp, debts: Debts) -> (Control, Ant
     (control, handle)
 }
 
-/// Starts a session with a unit that runs already, whose time is `now`.
+/// Starts a session with a running unit whose time is `now`.
 pub(in crate::driver) fn over(
     control: Control,
     now: Timestamp,
@@ -65,7 +65,7 @@ pub(in crate::driver) fn over(
     handle
 }
 
-/// The ISS in 2008, a published example.
+/// Elements of the ISS in 2008, a published example.
 const ELEMENTS: &str = "ISS (ZARYA)
 1 25544U 98067A   08264.51782528 -.00002182  00000-0 -11606-4 0  2927
 2 25544  51.6416 247.4627 0006703 130.5360 325.0288 15.72125391563537
@@ -75,7 +75,7 @@ fn site() -> Site {
     Site::new(41.01, 29.17, 100.0).unwrap()
 }
 
-/// A high pass of it.
+/// Returns a high pass of the ISS.
 pub(in crate::driver) fn pass() -> OnBoardPass {
     let elements = read_elements(ELEMENTS).elements.swap_remove(0);
     let (propagator, from) = (Propagator::new(&elements).unwrap(), elements.epoch());
@@ -96,7 +96,7 @@ pub(in crate::driver) fn pass() -> OnBoardPass {
     OnBoardPass { target, elements, site: site(), is_agreed: false }
 }
 
-/// A unit that comes to life this long after AOS.
+/// Returns a unit that starts `after_s` seconds after AOS.
 pub(in crate::driver) fn unit(after_s: f64) -> (Control, Timestamp) {
     let pass = pass();
     let now = add_seconds(pass.target.start, after_s);
@@ -104,7 +104,6 @@ pub(in crate::driver) fn unit(after_s: f64) -> (Control, Timestamp) {
     (Control::new(&Options { elements, ..Options::new(site(), now) }), now)
 }
 
-/// Its orbit.
 pub(in crate::driver) fn orbit() -> Arc<KnownOrbit> {
     let OnBoardPass { elements, site, .. } = pass();
     Arc::new(KnownOrbit { elements, site })

@@ -1,4 +1,4 @@
-//! A target of program track, and how well it is tracked.
+//! Target of program track, and the quality of its track.
 
 use std::time::Duration;
 
@@ -15,14 +15,14 @@ use crate::{
     station::{self, Antenna},
 };
 
-/// A track ends once an axis has had no angle for this long.
+/// Max time without an angle of an axis before the track ends.
 const UNMEASURED: Duration = Duration::from_secs(10);
 
-/// Maximum number of commands in a row without an answer and without effect.
+/// Max number of consecutive commands without an answer and without effect.
 const MAX_LOST: u32 = 3;
-/// Interval between looks while a barrier is in the way.
+/// Interval between updates while a barrier blocks the path.
 const BLOCKED: Duration = Duration::from_secs(2);
-/// Number of changes that can be undone.
+/// Max number of changes that the operator can undo.
 const MAX_UNDO: usize = 100;
 
 /// Settings of program track.
@@ -34,7 +34,7 @@ pub(super) struct TrackConfig {
 }
 
 impl TrackConfig {
-    /// Rates of both axes as learned, or as set.
+    /// Returns the learned or configured rates of both axes, degrees a second.
     pub(super) fn rates_deg_s(&self) -> [f64; 2] {
         self.drives.rates_deg_s
     }
@@ -51,7 +51,7 @@ impl TrackConfig {
         Self { drives, settings: antenna.follow, model: antenna.track_model() }
     }
 
-    /// The operator's limit, degrees a second.
+    /// Returns the operator's rate limit, degrees a second.
     pub(super) fn fastest_deg_s(&self) -> f64 {
         self.drives.limits.maximum_rate_deg_s
     }
@@ -60,38 +60,39 @@ impl TrackConfig {
 pub(super) struct Tracking {
     pub(super) planner: Planner,
     phase: TrackPhase,
-    /// Offsets before each change of the pass, the oldest first.
+    /// Offsets before each change in the pass, the oldest first.
     earlier: Vec<TrackOffsets>,
     stats: TrackStats,
     next_update: Instant,
-    /// A position is due, but something else must end first, which then brings it.
+    /// `true` if a due position waits for the end of another action, which then triggers it.
     is_held_up: bool,
-    /// When the last command went to the gate.
+    /// Time at which the last command passed the gate.
     sent: Option<Instant>,
-    /// Number of commands in a row that were lost.
+    /// Number of consecutive lost commands.
     lost: u32,
-    /// When the position that was compared last came in.
+    /// Receive time of the last compared position.
     compared: Option<Instant>,
     predicted: Option<Sample>,
-    /// The last measurement against the planned path; `None` before the pass.
+    /// Last measurement against the planned path; `None` before the pass.
     on_path: Option<OnPath>,
     off_target: OffTarget,
-    /// Start and latest in an unbroken series of readings without the angle of an axis off its limits.
+    /// Start and latest time of an unbroken series of readings without the angle of an axis that is
+    /// off its limits.
     unmeasured: Option<(Instant, Instant)>,
-    /// Waits for the operator.
+    /// `true` while the track waits for the operator.
     awaits_operator: bool,
-    /// The unit must still prove to be as before.
+    /// Pending comparison of the unit with its earlier state.
     recheck: Option<Recheck>,
-    /// The barrier in the way was reported.
+    /// `true` if Azel has reported the barrier on the path.
     barrier_is_reported: bool,
-    /// Where the last command leads.
+    /// Target of the last command.
     commanded: Option<Pointing>,
-    /// The same, while the target is not up.
+    /// Target of the last command while the satellite is not up.
     aim: Option<Pointing>,
 }
 
 impl Tracking {
-    /// Nothing has been sent yet; the first look is due now.
+    /// Creates a track without a sent position; the first update is due now.
     pub(super) fn new(planner: Planner, phase: TrackPhase, now: Instant) -> Self {
         Self {
             planner,
@@ -124,7 +125,7 @@ impl Tracking {
         self.phase == TrackPhase::Tracking && !self.awaits_operator
     }
 
-    /// Where the last command leads, while the target is not up.
+    /// Returns the target of the last command while the satellite is not up.
     pub(super) fn aim(&self) -> Option<Pointing> {
         self.aim
     }
@@ -133,7 +134,7 @@ impl Tracking {
         self.off_target
     }
 
-    /// When the clock calls for the next look; `None` while something else must end first.
+    /// Returns the time of the next update; `None` while another action must end first.
     pub(super) fn due(&self) -> Option<Instant> {
         (!self.is_held_up).then_some(self.next_update)
     }
@@ -143,17 +144,17 @@ impl Tracking {
         now >= self.next_update
     }
 
-    /// The next look is at this time.
+    /// Sets the time of the next update.
     pub(super) fn look_at(&mut self, time: Instant) {
         self.next_update = time;
     }
 
-    /// Notes whether a position that is due must wait for something else to end.
+    /// Records that a due position must wait for the end of another action.
     pub(super) fn hold_up(&mut self, is_held_up: bool) {
         self.is_held_up = is_held_up;
     }
 
-    /// Enters a phase. Returns the figures of the pass that is over.
+    /// Enters a phase. Returns the statistics of a pass that has ended.
     pub(super) fn enter(&mut self, phase: TrackPhase) -> Option<TrackStats> {
         let before = std::mem::replace(&mut self.phase, phase);
         if phase == TrackPhase::Tracking {
@@ -164,14 +165,14 @@ impl Tracking {
         }
         (self.predicted, self.on_path) = (None, None);
         self.off_target = OffTarget::default();
-        // They were for the pass.
+        // The changes and their undo steps belonged to the pass.
         let begins_with = self.planner.track().offsets;
         self.planner.set_offsets(begins_with);
         self.earlier.clear();
         Some(std::mem::take(&mut self.stats))
     }
 
-    /// The gate has let a position pass. `is_corner`: it leads round a corner only.
+    /// Records a position that passed the gate. `is_corner`: it leads only round a corner.
     pub(super) fn sent(
         &mut self,
         next: Next,
@@ -179,7 +180,7 @@ impl Tracking {
         is_corner: bool,
         now: Instant,
     ) {
-        // The leg round a corner is looked at again until the way is free.
+        // Check the leg round a corner again until the path is free.
         if !is_corner {
             self.planner.sent(next);
         }
@@ -187,32 +188,35 @@ impl Tracking {
         self.stats.commands += 1;
         self.commanded = aim;
         self.barrier_is_reported &= is_corner;
-        // During the pass the target is compared with itself, not with the last position.
+        // During the pass, Azel compares the antenna with the satellite, not with the last
+        // position.
         self.aim = aim.filter(|_| self.phase != TrackPhase::Tracking);
     }
 
-    /// A barrier is in the way. Returns `true` the first time.
+    /// Records a barrier on the path. Returns `true` the first time.
     pub(super) fn block(&mut self, now: Instant) -> bool {
-        // Looking for a way takes time that other antennas need, too.
+        // The search for a path takes time that other antennas need, too.
         self.next_update = self.next_update.max(now + BLOCKED);
         !std::mem::replace(&mut self.barrier_is_reported, true)
     }
 
-    /// A position was not answered and had no effect. Returns `true` if another may be sent.
+    /// Records a position without an answer or effect. Returns `true` if the track may send another
+    /// position.
     pub(super) fn lose(&mut self) -> bool {
         self.lost += 1;
-        // Nothing tells whether the unit took the position, so the next one starts from the axes.
+        // The unit may or may not have received the position, so the next position starts from the
+        // axes.
         self.planner.forget_sent();
         self.lost < MAX_LOST
     }
 
-    /// The unit accepted a position.
+    /// Records that the unit accepted a position.
     pub(super) fn is_taken(&mut self) {
         self.lost = 0;
     }
 
-    /// The unit is read again after an outage. Returns how long it was out of reach before, if
-    /// the comparison after that is still pending.
+    /// Interrupts the track at the first reading after an outage. Returns the duration of an
+    /// earlier outage whose comparison is still pending.
     pub(super) fn interrupt(&mut self) -> Option<Duration> {
         self.planner.forget_sent();
         self.sent = None;
@@ -227,29 +231,29 @@ impl Tracking {
         self.recheck.take()
     }
 
-    /// The unit must prove to be as before.
+    /// Starts a comparison of the unit with its earlier state.
     pub(super) fn begin_recheck(&mut self, recheck: Recheck) {
         self.recheck = Some(recheck);
     }
 
-    /// Waits for the operator from now on.
+    /// Makes the track wait for the operator.
     pub(super) fn await_operator(&mut self) {
         self.awaits_operator = true;
     }
 
-    /// The track was stopped on its way.
+    /// Forgets the target of the last command after a stop on the way.
     pub(super) fn forget_aim(&mut self) {
         self.aim = None;
     }
 
-    /// The operator lets it go on.
+    /// Resumes the track on the operator's decision.
     pub(super) fn resume(&mut self) {
         self.awaits_operator = false;
         self.recheck = None;
         self.planner.forget_sent();
     }
 
-    /// Offsets before the last change of the pass.
+    /// Returns the offsets before the last change in the pass.
     pub(super) fn last_earlier(&self) -> Option<TrackOffsets> {
         self.earlier.last().copied()
     }
@@ -258,7 +262,7 @@ impl Tracking {
         self.earlier.pop();
     }
 
-    /// Keeps the offsets before a change, for undo.
+    /// Stores the offsets before a change, for undo.
     pub(super) fn remember(&mut self, before: TrackOffsets) {
         if self.earlier.len() >= MAX_UNDO {
             self.earlier.remove(0);
@@ -285,7 +289,7 @@ impl Tracking {
         }
     }
 
-    /// It goes on only by the word of the operator, or once the unit has proved to be as before.
+    /// Returns `true` if the track waits for the operator or for a comparison of the unit.
     pub(super) fn asks(&self) -> bool {
         self.awaits_operator || self.recheck.is_some()
     }
@@ -294,9 +298,9 @@ impl Tracking {
         self.planner.track().target.name().into_owned()
     }
 
-    /// Takes the pointing error and the rates of a measurement, once each.
-    /// The antenna is on target within `half_beam`. It is on its path within `on_target`, which includes
-    /// the error of the unit's readings.
+    /// Takes the pointing error and the rates of a measurement, once each. The antenna is on target
+    /// within `half_beam`. The antenna is on its path within `on_target`, which includes the error
+    /// of the unit's readings.
     pub(super) fn compare(
         &mut self,
         measured: Measured,
@@ -323,7 +327,7 @@ impl Tracking {
         {
             self.stats.take(off);
         }
-        // Other events report why the track waits.
+        // Other events report the reason for a waiting track.
         let is_free = is_up && !self.asks() && !self.barrier_is_reported && direction.is_some();
         if !is_free {
             self.planner.restart_chase();
@@ -346,14 +350,15 @@ impl Tracking {
         self.unmeasured.is_some_and(|(began, at)| at.saturating_duration_since(began) >= UNMEASURED)
     }
 
-    /// The axes, of which none is taken for at rest.
+    /// Returns the axes without assuming either axis at rest.
     pub(super) fn turning(measured: Option<Measured>) -> [AxisNow; 2] {
         let axes = measured.map(|measured| measured.axes);
         let position_deg = |axis: usize| axes.and_then(|axes| axes.get(axis)?.angle_deg);
         [0, 1].map(|axis| AxisNow { position_deg: position_deg(axis), stands: false })
     }
 
-    /// The axes, as far as they show the effect of the last command.
+    /// Returns the axes. An axis stands only if its reading can show the effect of the last
+    /// command.
     pub(super) fn axes(&self, measured: Measured, latency: Duration) -> [AxisNow; 2] {
         let shows_it = self.sent.is_none_or(|sent| measured.requested >= sent + latency);
         measured.axes.map(|axis| AxisNow {

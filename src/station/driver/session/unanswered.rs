@@ -1,4 +1,4 @@
-//! Reports a unit that does not answer while Azel has metal moving.
+//! Report of a unit that does not answer during a motion of Azel.
 
 use super::Session;
 use crate::{
@@ -11,8 +11,8 @@ impl Session {
         self.contact.silence.wrote(self.gate.state().traffic.replies, now.steady);
     }
 
-    /// Returns `true` while metal moves on Azel's command as far as is known: until STOP is
-    /// proved it may, even if the last position shows it at rest.
+    /// Returns `true` while a motion of Azel may run. Until STOP is proved, a motion may run even
+    /// if the last position shows rest.
     fn is_in_motion(&mut self) -> bool {
         self.is_unproved()
             && (self.follows_now()
@@ -23,7 +23,7 @@ impl Session {
                 || self.gate.device().motion_under_way())
     }
 
-    /// Reports a unit that does not answer while it moves, once until it answers.
+    /// Reports a unit that does not answer during its motion, once until its next reply.
     pub(super) fn watch_silence(&mut self, now: Moment) {
         let is_watched = self.is_in_motion();
         let replies = self.gate.state().traffic.replies;
@@ -35,7 +35,7 @@ impl Session {
         }
     }
 
-    /// The link was lost in the middle of a motion.
+    /// Reports silence if the link is lost during a motion.
     pub(super) fn tell_silence_of_lost_link(&mut self) {
         if self.is_in_motion() {
             self.tell_silence();
@@ -48,9 +48,9 @@ impl Session {
         }
     }
 
-    /// When silence must be reported.
+    /// Returns the time at which silence must be reported.
     pub(super) fn silence_due(&mut self) -> Option<Instant> {
-        // A link that is lost is an alarm of its own.
+        // A lost link raises its own alarm.
         let is_open = matches!(self.contact.link(), LinkState::Up { .. } | LinkState::Stale { .. });
         self.contact.silence.due(self.gate.device().prompt()).filter(|_| is_open)
     }

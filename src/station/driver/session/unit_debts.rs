@@ -1,4 +1,4 @@
-//! The debts of one unit, as its session sees them.
+//! Debts of one unit, from the view of its session.
 
 use std::sync::Arc;
 
@@ -11,31 +11,30 @@ use crate::{
     promises::PromisedFile,
 };
 
-/// Debts to the unit, also from other sessions and earlier runs.
+/// Debts to the unit, including debts from other sessions and earlier runs.
 pub(super) struct UnitDebts {
     debts: Debts,
     unit: Unit,
-    /// Tells the sessions of one unit apart.
+    /// Number of this session among the sessions of the unit.
     number: u64,
-    /// Since when a record is kept that the unit was moved and has not been proved to stand.
+    /// Start of the recorded motion without proved standstill.
     kept_unproved: Option<Instant>,
 }
 
 impl UnitDebts {
-    /// Begins a session of `unit`; `stop` stops it, at once if a STOP is owed.
+    /// Begins a session of `unit`; notifies `stop` at once if Azel owes the unit a STOP.
     pub(super) fn begin(debts: Debts, unit: Unit, stop: Arc<Notify>) -> Self {
         let number = debts.begin(&unit, stop);
         let kept_unproved = debts.unproved_since(&unit);
         Self { debts, unit, number, kept_unproved }
     }
 
-    /// When the unit was moved without a proof of standstill since.
+    /// Returns the start of the unit's motion without proved standstill.
     pub(super) fn unproved_since(&self) -> Option<Instant> {
         self.kept_unproved
     }
 
-    /// Keeps a record for the unit's next session, whose antenna may have other settings by
-    /// then.
+    /// Records the motion for the unit's next session, whose antenna may have other settings.
     pub(super) fn keep_unproved(&mut self, moved_at: Option<Instant>) {
         if moved_at != self.kept_unproved {
             self.kept_unproved = moved_at;
@@ -51,7 +50,7 @@ impl UnitDebts {
         self.debts.settle(&self.unit);
     }
 
-    /// Returns `true` if another session of the unit has begun, and takes over what is owed.
+    /// Returns `true` if another session of the unit has begun and takes over the debts.
     pub(super) fn is_relieved(&self, owes_stop: bool) -> bool {
         if owes_stop {
             self.debts.hand_over(&self.unit, self.number)
@@ -72,7 +71,7 @@ impl UnitDebts {
         self.debts.owes_auto_track_off(&self.unit)
     }
 
-    /// Returns `true` if there is a folder for marks.
+    /// Returns `true` if a folder for marks exists.
     pub(super) fn has_marks(&self) -> bool {
         self.debts.has_marks()
     }
@@ -89,7 +88,7 @@ impl UnitDebts {
         self.debts.unmark(&self.unit, self.number);
     }
 
-    /// Finds what an earlier run left on the disk. Returns its mark.
+    /// Reads the records of an earlier run from disk. Returns its mark.
     pub(super) async fn find(&self) -> Option<Mark> {
         let (debts, unit, number) = (self.debts.clone(), self.unit.clone(), self.number);
         let finding = spawn_blocking(move || {
@@ -99,12 +98,12 @@ impl UnitDebts {
         finding.await.ok().flatten()
     }
 
-    /// Waits until the disk has taken all requests for this unit.
+    /// Waits until the disk has stored all requests for this unit.
     pub(super) async fn settled(&self) {
         self.debts.settled(&self.unit).await;
     }
 
-    /// Offsets that were added for a track of the unit.
+    /// Returns the offsets that Azel added for a track of the unit.
     pub(super) fn shifted(&self) -> Option<ShiftedTrack> {
         self.debts.shifted(&self.unit)
     }

@@ -1,5 +1,5 @@
-//! Offsets of a track that the unit computes: added from here while it tracks, read back, and taken
-//! back once the track is over.
+//! Offsets of a track that the unit computes: Azel adds them during the track, reads them back, and
+//! removes them after the track.
 
 mod added;
 mod program;
@@ -24,7 +24,7 @@ pub(super) use shifting::Shifting;
 use shifting::{Certainty, Step};
 
 impl Session {
-    /// Changes what is added to the offsets of the unit's own track.
+    /// Changes the offsets that Azel adds to the unit's own track.
     pub(super) fn change_unit_offsets(
         &mut self,
         change: OffsetChange,
@@ -70,7 +70,7 @@ impl Session {
         Ok(())
     }
 
-    /// Returns what the unit would do with `wanted` added; `None` where taking back moves nothing.
+    /// Returns the motion of the unit with `wanted` added; `None` if a removal moves nothing.
     fn shift(&self, wanted: TrackOffsets, now: Moment) -> Result<Option<Shift>, Refusal> {
         if wanted.is_none() && !self.may_track() {
             return Ok(None);
@@ -93,7 +93,8 @@ impl Session {
         Ok(Some(Shift { judge, axes: with(after), sky: with(before) }))
     }
 
-    /// Records what is about to be written. Back to what the unit held before needs no record.
+    /// Records the offsets before their write. A return to the unit's previous offsets needs no
+    /// record.
     fn begin_shift(&mut self, fields: &TrackOffsetFields, now: Moment) {
         let Some(wanted) = self.unit_offsets.wanted() else { return };
         if !self.unit_offsets.is_idle() {
@@ -101,7 +102,7 @@ impl Session {
         }
         let Some(current) = self.held_offsets() else { return self.forget_wanted() };
         if wanted.is_none() {
-            // The record of what was added stays until the unit reads as before.
+            // The record of added offsets stays until the unit reads as before.
             return self.write_shift(fields, now);
         }
         let recorded = self.owed.debts().shifted();
@@ -116,7 +117,7 @@ impl Session {
         let Some(after) = shifted.before.checked_add(wanted) else { return self.forget_wanted() };
         shifted.track = self.reported_track();
         if self.unit_offsets.is_sure() {
-            // The unit holds what was read back, and nothing older.
+            // The unit has the values that it read back, and no older ones.
             shifted.put.clear();
         }
         shifted.may_be(current);
@@ -129,7 +130,7 @@ impl Session {
         }
     }
 
-    /// Sends what is wanted through the gate.
+    /// Sends the wanted offsets through the gate.
     fn write_shift(&mut self, fields: &TrackOffsetFields, now: Moment) {
         self.unit_offsets.end_step();
         let written = self.try_write_shift(fields, now);
@@ -148,7 +149,7 @@ impl Session {
         }
     }
 
-    /// Returns the ticket of the change; `None` where the unit holds that already.
+    /// Returns the ticket of the change; `None` if the unit already has these offsets.
     fn try_write_shift(
         &mut self,
         fields: &TrackOffsetFields,
@@ -172,7 +173,7 @@ impl Session {
         Ok(Some(ticket))
     }
 
-    /// Follows a change to its end, and takes back what is added once the track is over.
+    /// Follows a change to its end, and removes the added offsets after the track.
     pub(super) fn watch_unit_offsets(&mut self, now: Moment) {
         let Some(fields) = self.setup.track_offsets() else { return };
         match self.unit_offsets.step() {
@@ -189,7 +190,7 @@ impl Session {
                     if self.unit_offsets.wanted() == Some(wanted) {
                         self.write_shift(fields, now);
                     } else {
-                        // Another change has been requested since.
+                        // The operator has requested another change since.
                         self.begin_shift(fields, now);
                     }
                 }
@@ -208,13 +209,13 @@ impl Session {
             return;
         };
         self.unit_offsets.end_step();
-        // In mid-track the operator may try again, and the end of the track takes it back.
+        // During the track, the operator may retry, and the end of the track removes the offsets.
         let was_at_the_end = self.unit_offsets.is_taking_back() && self.added_track_is_over(now);
         match &written.result {
             Ok(()) if self.unit_offsets.wanted() == self.added_offsets() => {
                 self.unit_offsets.is_in_force();
             }
-            // Another change has been requested since.
+            // The operator has requested another change since.
             Ok(()) => self.begin_shift(fields, now),
             Err(error) => {
                 if let WriteError::Differs(_) = error {
@@ -228,7 +229,7 @@ impl Session {
                     self.read_offsets_again(fields);
                 }
                 match error {
-                    // It was not sent, and is owed as before.
+                    // The gate did not send the change, so the debt stays.
                     WriteError::Stopped => {}
                     WriteError::ChangedMeanwhile if was_at_the_end => {}
                     error if was_at_the_end => {
@@ -240,13 +241,13 @@ impl Session {
         }
     }
 
-    /// The offsets are unknown until the unit is read again.
+    /// Marks the offsets as unknown until the next reading of the unit.
     fn read_offsets_again(&mut self, fields: &TrackOffsetFields) {
         self.unit_offsets.unread(self.read_at());
         self.gate.device().read_group(fields.group);
     }
 
-    /// An earlier run may have written offsets just before it ended.
+    /// Doubts the offsets of an earlier run, which may have written them just before its end.
     pub(super) fn doubt_found_offsets(&mut self, now: Moment) {
         let shifted = self.owed.debts().shifted();
         if shifted.is_some_and(|shifted| shifted.is_found) {
@@ -254,7 +255,7 @@ impl Session {
         }
     }
 
-    /// The link is lost: the next read of the unit shows the outcome of a change.
+    /// Ends a change after the loss of the link: the next reading of the unit shows its outcome.
     pub(super) fn lose_shift(&mut self, now: Moment) {
         if !self.unit_offsets.lose(now.steady) {
             return;
@@ -262,13 +263,13 @@ impl Session {
         let is_taking_back = self.unit_offsets.is_taking_back();
         self.unit_offsets.unread(self.read_at());
         self.forget_wanted();
-        // Taking back stays owed, so it is no failure to report.
+        // The removal stays pending, so Azel reports no failure.
         if !is_taking_back {
             self.tell(Event::OffsetNotTaken(WriteError::LinkLost));
         }
     }
 
-    /// Takes back what is added once the track is over, and forgets what is taken back.
+    /// Removes the added offsets after the track, and forgets them once they are gone.
     fn watch_shifted(&mut self, fields: &TrackOffsetFields, now: Moment) {
         let is_over = self.added_track_is_over(now);
         let Some(shifted) = self.owed.debts().shifted() else {
@@ -292,10 +293,10 @@ impl Session {
             }
             return;
         }
-        // A halt would void the change, and a locked-out unit takes no setting.
+        // A halt would void the change, and a locked-out unit accepts no setting.
         let waits = self.stop.is_under_way() || self.gate.lock_out().is_some();
         if is_over && !waits && self.may_take_back(now) {
-            // With auto-track on, the unit may begin its next track before that.
+            // With auto-track on, the unit may begin its next track before the removal.
             if let Ok(Some(shift)) = self.shift(TrackOffsets::NONE, now)
                 && !self.is_judged(&shift.judge, &[shift.axes, shift.sky])
             {
@@ -306,7 +307,7 @@ impl Session {
         }
     }
 
-    /// Somebody else has set an offset of the unit: only the others are still to be taken back.
+    /// Handles an offset that somebody else has set: Azel removes only the others.
     fn leave_foreign(&mut self, shifted: ShiftedTrack, current: TrackOffsets, now: Moment) {
         tracing::warn!(antenna = self.setup.name(), "somebody else has set offsets of the unit");
         if !shifted.is_found {
@@ -321,7 +322,7 @@ impl Session {
         }
     }
 
-    /// Returns `true` if the unit was read after the time in which it may apply a change late.
+    /// Returns `true` if Azel has read the unit after the time in which it may apply a change late.
     fn is_sure(&mut self, fields: &TrackOffsetFields, now: Moment) -> bool {
         match self.unit_offsets.certainty(now.steady) {
             Certainty::Sure => true,
@@ -333,7 +334,8 @@ impl Session {
         }
     }
 
-    /// Records offsets that read back differently from those written: they are from here too.
+    /// Records offsets that read back differently from the written ones, because they also come
+    /// from Azel.
     fn own_read_back(&self) {
         let debts = self.owed.debts();
         let current = self.held_offsets();
@@ -344,7 +346,7 @@ impl Session {
         }
     }
 
-    /// The unit holds nothing of ours any more.
+    /// Removes the record, because the unit has no offset of Azel any more.
     fn forget_shifted(&mut self) {
         self.owed.debts().set_shifted(None);
         self.unit_offsets.reset();
@@ -356,20 +358,20 @@ impl Session {
         self.unit_offsets.forget_wanted(in_force);
     }
 
-    /// A halt voids a change that is not on its way to the unit.
+    /// Voids a change after a halt, unless the change is already on its way to the unit.
     pub(super) fn void_shift(&mut self) {
         let in_force = self.added_offsets();
         self.unit_offsets.void(in_force);
     }
 
-    /// Returns `true` while what was added for a track is being taken back: the next one waits for
-    /// that.
+    /// Returns `true` while Azel removes the offsets of a track; the next track waits for the
+    /// removal.
     pub(super) fn takes_offsets_back(&self) -> bool {
         !self.program_is_on() && self.unit_offsets.is_writing()
     }
 }
 
-/// Returns `true` if the unit may apply a change although it did not read back.
+/// Returns `true` if the unit may still apply a change that did not read back.
 fn may_apply_late(error: &WriteError) -> bool {
     match error {
         WriteError::LinkLost

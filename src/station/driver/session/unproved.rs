@@ -1,31 +1,30 @@
-//! Keeps track of an antenna that was moved from here until its standstill is proved.
+//! Record of an antenna that Azel moved, until its standstill is proved.
 
 use std::time::Duration;
 
 use super::Session;
 use crate::clock::Moment;
 
-/// An antenna that has not moved this long after a motion was sent no longer will.
+/// Max time from a sent motion until the antenna must have started to move.
 const SETTLED: Duration = Duration::from_secs(5);
 
 impl Session {
-    /// Returns `true` if it was moved from here, or a STOP is owed, and standstill has not
-    /// been proved since.
+    /// Returns `true` if Azel moved the antenna or owes it a STOP, and standstill is not proved
+    /// yet.
     pub(super) fn is_unproved(&self) -> bool {
         self.gate.unproved_since().is_some() || self.stop.is_under_way()
     }
 
-    /// A halt is over and nothing moves. A unit that may start on its own stays unproved.
+    /// Records standstill after a halt. A unit that may start on its own stays unproved.
     pub(super) fn prove_still(&mut self) {
         self.commanded.proved_still();
-        // A unit with auto-track on may begin to turn at any time, without a motion of Azel to tell
-        // of it.
+        // A unit with auto-track on may begin to turn at any time without a command of Azel.
         if !self.may_start_by_itself() {
             self.gate.proved_still();
         }
     }
 
-    /// Checks whether a motion that nobody stopped is over.
+    /// Checks whether a motion without a STOP is over.
     pub(super) fn watch_standstill(&mut self, _: Moment) {
         let Some(since) = self.gate.unproved_since() else { return };
         let state = self.gate.state();

@@ -1,4 +1,4 @@
-//! Leaves a unit to others, and takes it back when the operator says so.
+//! Release of a unit to others, and its return on the operator's request.
 
 use super::{Session, activity::Activity, contact::Wanted, io_loop::MIN_WAIT, wires::Input};
 use crate::contract::driver::{Event, Refusal};
@@ -23,7 +23,7 @@ impl Session {
                     () = clock.sleep_until(due.max(now.steady + MIN_WAIT)) => Input::Time,
                 },
             };
-            // The command may have come hours later.
+            // The command may have arrived hours later.
             let now = self.now();
             match turn {
                 Input::Over => return false,
@@ -35,7 +35,7 @@ impl Session {
                     self.carry_out_numbered(numbered, now, Self::carry_out_offline);
                 }
                 Input::Bounds(bounds) => self.keep_within(*bounds),
-                // Dropping the token lets the computer sleep: a unit that was let go needs no STOP.
+                // Dropping the token lets the computer sleep: a released unit needs no STOP.
                 Input::Sleep(_) | Input::Bytes(_) | Input::Lost(_) | Input::Time => {}
             }
         }
@@ -44,13 +44,13 @@ impl Session {
         true
     }
 
-    /// Leaves the unit to others, after what safety requires.
+    /// Releases the unit to others, after all required safety steps.
     pub(super) fn disconnect(&mut self) -> bool {
         if self.stop.is_under_way() {
             self.tell(Event::NotSent(Refusal::Stopping));
             return false;
         }
-        // A motion that waits to be sent is wanted and not over, so end it.
+        // A queued motion is not over, so end it.
         if self.commanded.activity.is_queued() {
             let now = self.now();
             self.halt_quietly(now);
@@ -61,7 +61,7 @@ impl Session {
         true
     }
 
-    /// The STOP that the link was opened for is proved.
+    /// Closes a link opened only for a STOP, after the proof of that STOP.
     pub(super) fn disconnect_after_stop(&mut self) -> bool {
         !self.stop.is_under_way() && self.disconnect()
     }

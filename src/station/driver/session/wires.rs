@@ -1,4 +1,4 @@
-//! The session's ends of the channels to the station.
+//! Session side of the channels to the station.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, atomic::Ordering};
 
@@ -25,25 +25,25 @@ pub(super) enum Input {
     /// New bounds of the antenna.
     Bounds(Box<Bounds>),
     Stop,
-    /// This computer is about to sleep.
+    /// Imminent sleep of this computer.
     Sleep(Awake),
     Time,
-    /// The station is gone: the session ends.
+    /// Loss of the station, which ends the session.
     Over,
 }
 
-/// The session's ends of the channels to the station. A session that breaks down leaves them
-/// to the next one.
+/// Session side of the channels to the station. A session that breaks down leaves the channels to
+/// its successor.
 #[derive(Clone)]
 pub struct Wires {
-    /// Locked by the running session.
+    /// Command queue, locked by the running session.
     commands: Arc<AsyncMutex<mpsc::Receiver<Numbered>>>,
     stopper: Stopper,
     before_sleep: Option<Arc<AsyncMutex<mpsc::Receiver<Awake>>>>,
     snapshots: watch::Sender<Arc<Snapshot>>,
     events: mpsc::Sender<Event>,
     wake: Wake,
-    /// Why the present command is not carried out.
+    /// Reason why the session refuses the current command.
     problem: Arc<Mutex<Option<TrackProblem>>>,
     wire_log: WireLog,
     positions: PositionLog,
@@ -52,7 +52,7 @@ pub struct Wires {
 }
 
 impl Wires {
-    /// Creates both ends of one antenna's channels.
+    /// Creates both sides of one antenna's channels.
     pub(in crate::driver) fn new(
         antenna: &Antenna,
         bounds: Bounds,
@@ -100,7 +100,7 @@ impl Wires {
         (wires, handle)
     }
 
-    /// The handle of an antenna that no session drives: it takes nothing.
+    /// Returns the handle of an antenna without a session: it accepts no command.
     pub(in crate::driver) fn closed(antenna: &Antenna, now: Instant) -> AntennaHandle {
         let bounds = Bounds::of_antenna(antenna);
         let (wires, handle) = Self::new(antenna, bounds, now, Arc::new(|| {}), &Orders::default());
@@ -109,14 +109,14 @@ impl Wires {
         handle
     }
 
-    /// With a channel that tells before this computer sleeps.
+    /// Adds a channel that announces the sleep of this computer.
     pub(in crate::driver) fn hearing(mut self, before_sleep: mpsc::Receiver<Awake>) -> Self {
         self.before_sleep = Some(Arc::new(AsyncMutex::new(before_sleep)));
         self
     }
 
-    /// Fills in the first snapshot, before the session runs: what was learned of the axes before,
-    /// and the lock-out of the unit.
+    /// Fills in the first snapshot before the session runs: the earlier lessons about the axes, and
+    /// the lock-out of the unit.
     pub(in crate::driver) fn begin_with(
         &self,
         learned: [AxisLessons; 2],
@@ -130,7 +130,7 @@ impl Wires {
         });
     }
 
-    /// The lock-out that was shown last.
+    /// Returns the last shown lock-out.
     pub(in crate::driver) fn shown_lock_out(&self) -> Option<LockOut> {
         self.snapshots.borrow().lock_out.clone()
     }
@@ -140,7 +140,7 @@ impl Wires {
         self.stopper.stop();
     }
 
-    /// The newest request that a STOP has voided.
+    /// Returns the number of the newest request that a STOP has voided.
     pub(in crate::driver) fn newest_void(&self) -> u64 {
         self.stopper.void.load(Ordering::SeqCst)
     }
@@ -153,11 +153,11 @@ impl Wires {
     }
 
     fn problem(&self) -> MutexGuard<'_, Option<TrackProblem>> {
-        // No code panics while it holds the lock.
+        // No code panics while it owns the lock, so the data of a poisoned lock is valid.
         self.problem.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The last problem that was told since the last call.
+    /// Takes the last reported problem since the previous call.
     pub(super) fn take_problem(&self) -> Option<TrackProblem> {
         self.problem().take()
     }
@@ -169,14 +169,14 @@ impl Wires {
             Event::CannotProgramTrack(_, problem) => *self.problem() = Some(problem.clone()),
             _ => {}
         }
-        // The driver waits for nobody, so an event that finds no room is dropped.
+        // The driver must not wait, so it drops an event if the queue is full.
         if let Err(error) = self.events.try_send(event) {
             tracing::warn!(%error, "nobody reads the events; one was dropped");
         }
         (self.wake)();
     }
 
-    /// The next input, a STOP before anything else.
+    /// Waits for the next input; a STOP comes first.
     pub(super) async fn next(&mut self) -> Input {
         // The order matters: a STOP must not wait behind the commands that it voids. A random order
         // would also make two runs of one rehearsal differ.
@@ -189,17 +189,17 @@ impl Wires {
         }
     }
 
-    /// Voids the commands that were given before a STOP, whoever gave them.
+    /// Voids all commands sent before a STOP, by any sender.
     pub(super) fn void_commands(&self) {
         self.stopper.forget();
     }
 
-    /// The present bounds of the antenna; [`Self::next`] reports later ones.
+    /// Returns the current bounds of the antenna; [`Self::next`] reports later ones.
     pub(super) fn first_bounds(&mut self) -> Bounds {
         self.bounds.borrow_and_update().clone()
     }
 
-    /// What was learned of the axes, also by a session that broke down.
+    /// Returns the lessons about the axes, including lessons of a session that broke down.
     pub(super) fn learned(&self) -> [AxisLessons; 2] {
         self.snapshots.borrow().learned
     }
@@ -208,7 +208,7 @@ impl Wires {
         self.orbit.borrow().clone()
     }
 
-    /// Publishes a snapshot if anything in it has changed.
+    /// Publishes a snapshot if it has changed.
     pub(super) fn publish(&self, snapshot: Snapshot) {
         let mut is_worth_a_look = false;
         self.snapshots.send_if_modified(|shown| {
@@ -219,13 +219,13 @@ impl Wires {
             }
             has_changed
         });
-        // Ages and counters alone are worth no frame: the window shows them with its next second.
+        // Ages and counters alone need no frame: the window updates them within a second.
         if is_worth_a_look {
             (self.wake)();
         }
     }
 
-    /// Shows a lock-out that stands before the session runs.
+    /// Shows a lock-out from before the session runs.
     pub(super) fn show_lock_out(
         &self,
         lock_out: Option<LockOut>,
@@ -242,7 +242,7 @@ impl Wires {
         self.positions.push(measured);
     }
 
-    /// Passes what went over the link on to the wire log.
+    /// Copies the link traffic to the wire log.
     pub(super) fn log_lines(&self, lines: impl Iterator<Item = WireLine>) {
         let mut is_awaited = false;
         for line in lines {
@@ -269,13 +269,13 @@ async fn next_sleep(before_sleep: Option<&AsyncMutex<mpsc::Receiver<Awake>>>) ->
 
 async fn next_bounds(bounds: &mut watch::Receiver<Bounds>) -> Bounds {
     if bounds.changed().await.is_err() {
-        // The end shows as the end of the commands.
+        // The command channel reports the end.
         std::future::pending::<()>().await;
     }
     bounds.borrow_and_update().clone()
 }
 
-/// Returns `None` when the station is gone: commands given just before the end are not begun.
+/// Returns `None` when the station is gone: the session begins no command sent just before the end.
 async fn next_command(
     commands: &AsyncMutex<mpsc::Receiver<Numbered>>,
     stopper: &Stopper,

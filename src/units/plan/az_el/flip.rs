@@ -1,32 +1,32 @@
-//! Flip: an elevation axis that travels over the zenith points in every direction in two ways,
-//! plain (up to 90 degrees) and flipped (beyond, with the azimuth half a turn away).
+//! Flip of an elevation axis that travels over the zenith. Such a mount points in every direction
+//! in two ways: plain (up to 90 degrees) and flipped (beyond, with the azimuth half a turn away).
 
 use crate::{astro::Angle, plan::Sample};
 
-/// When the axes are flipped along a pass.
+/// Part of a pass in which the axes are flipped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::plan) enum Flip {
-    /// Never: the elevation stays at or below 90 degrees.
+    /// No part: the elevation stays at or below 90 degrees.
     None,
-    /// Throughout.
+    /// Whole pass, with the axes flipped throughout.
     Whole,
-    /// From the highest point of the pass onwards: the elevation continues over the zenith.
+    /// Part from the highest point of the pass onwards: the elevation continues over the zenith.
     FromTop,
-    /// Until the highest point of the pass: the elevation comes back over the zenith.
+    /// Part until the highest point of the pass: the elevation comes back over the zenith.
     UntilTop,
 }
 
-/// How free the choice of a flip is.
+/// Freedom in the choice of a flip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::plan) enum FlipChoice {
-    /// This flip unless another is clearly better.
+    /// Preference for this flip, unless another is clearly better.
     Prefer(Flip),
-    /// Only this flip.
+    /// Restriction to this flip, even if another is better.
     Keep(Flip),
 }
 
 impl Flip {
-    /// For each sample, whether the axes are flipped there.
+    /// Returns for each sample whether the axes are flipped.
     pub(super) fn flipped(self, samples: &[Sample]) -> Vec<bool> {
         let elevation = |(_, sample): &(usize, &Sample)| sample.direction.elevation_deg();
         let highest =
@@ -43,8 +43,8 @@ impl Flip {
     }
 }
 
-/// Positions at which the azimuth axis points to the samples, degrees without jumps: each is the
-/// short way from the one before.
+/// Returns the positions of the azimuth axis for the samples, degrees without jumps: each is the
+/// short way from the previous one.
 pub(super) fn azimuths_deg(samples: &[Sample], flipped: &[bool]) -> Vec<f64> {
     let mut before: Option<Angle> = None;
     let azimuth = |(sample, is_flipped): (&Sample, &bool)| {

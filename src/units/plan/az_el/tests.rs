@@ -1,8 +1,8 @@
 use super::*;
 use crate::astro::time::add_seconds;
 
-/// A pass in a straight line over the ground at 7.5 km/s and a height of 800 km, which comes within
-/// `km` of the site and flies towards `towards_deg`; one sample per second.
+/// Returns a pass in a straight line over the ground at 7.5 km/s and a height of 800 km. It comes
+/// within `km` of the site and flies towards `towards_deg`; one sample per second.
 fn pass(km: f64, towards_deg: f64) -> Vec<Sample> {
     let sample = |second: i32| {
         let along = 7.5 * f64::from(second);
@@ -26,7 +26,7 @@ fn waiting() -> Start {
     Start { axes_deg: [Some(100.0), Some(0.0)], lead_s: 3600.0, sets_out: true }
 }
 
-/// The flip that is taken, and its root mean square error in degrees.
+/// Returns the chosen flip, and its root mean square error in degrees.
 fn best(samples: &[Sample], axes: AzElAxes, start: Start) -> (Flip, f64) {
     let planned = axes.best(samples, 1.0, start, Flip::None);
     (planned.flip, axes.error_deg(samples, 1.0, start, &planned))
@@ -102,7 +102,8 @@ fn in_the_middle_of_a_pass_the_axes_stay_on_their_side() {
     assert_eq!(best(late, axes(360.0, 180.0, 2.0), waiting()).0, Flip::None);
 }
 
-/// An axis too slow for the turn through north goes on from where it stands, not from its course.
+/// An axis too slow for the turn through north continues from its current position, not from its
+/// course.
 #[test]
 fn a_slow_axis_in_the_middle_of_an_unwrap_goes_on_from_where_it_stands() {
     let samples = pass(600.0, 275.0);

@@ -1,12 +1,12 @@
-//! A direction as seen by the two axes, prepared for repeated evaluation.
+//! Direction from the view of the two axes, prepared for repeated evaluation.
 
 use crate::astro::AzEl;
 
-/// Elevation from which the azimuth may have to turn faster than it can, degrees.
+/// Elevation above which the azimuth may have to turn faster than it can, degrees.
 const OVERHEAD_FROM_DEG: f64 = 60.0;
 
-/// Returns `true` if the elevation makes up for an azimuth that does not keep up. Lower down, the
-/// antenna would rise and fall while the azimuth turns, and still point nowhere near the target.
+/// Returns `true` if the elevation compensates for an azimuth that does not keep up. Lower down,
+/// the antenna would rise and fall while the azimuth turns, and still miss the target.
 pub(super) fn is_overhead(direction: AzEl) -> bool {
     direction.elevation_deg() >= OVERHEAD_FROM_DEG
 }
@@ -14,12 +14,11 @@ pub(super) fn is_overhead(direction: AzEl) -> bool {
 /// Sine and cosine of an angle.
 pub(super) type SinCos = (f64, f64);
 
-/// Sine and cosine of an angle in degrees.
+/// Returns the sine and cosine of an angle in degrees.
 pub(super) fn sin_cos(deg: f64) -> SinCos {
     deg.to_radians().sin_cos()
 }
 
-/// Ends of an elevation axis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ElevationEnds {
     deg: (f64, f64),
@@ -42,12 +41,12 @@ pub(super) struct View {
 /// Behaviour of the elevation axis while the azimuth does not keep up.
 #[derive(Debug, Clone, Copy)]
 enum Elevation {
-    /// It makes up for the azimuth between its ends.
+    /// Compensation for the azimuth between the ends of the elevation axis.
     Helps([SinCos; 2]),
     Stays(SinCos),
 }
 
-/// Position of the elevation axis where it does not make up for the azimuth, degrees.
+/// Returns the position of the elevation axis without compensation for the azimuth, degrees.
 fn nominal_deg(direction: AzEl, is_flipped: bool, ends: Option<ElevationEnds>) -> f64 {
     let elevation_deg = direction.elevation_deg();
     let side_deg = if is_flipped { 180.0 - elevation_deg } else { elevation_deg };
@@ -69,7 +68,8 @@ impl View {
         }
     }
 
-    /// The best position of the elevation axis for a position of the azimuth axis, in degrees.
+    /// Returns the best position of the elevation axis for a position of the azimuth axis, in
+    /// degrees.
     pub(super) fn elevation_deg(
         (direction, is_flipped): (AzEl, bool),
         ends: Option<ElevationEnds>,
@@ -84,14 +84,15 @@ impl View {
         up.atan2(along).to_degrees().min(to_deg).max(from_deg)
     }
 
-    /// Cost of a position of both axes: grows with the square of a small error, up to 2 for the
-    /// opposite direction.
+    /// Returns the cost of a position of both axes: grows with the square of a small error, up to 2
+    /// for the opposite direction.
     pub(super) fn cost(&self, azimuth: SinCos, (sin, cos): SinCos) -> f64 {
         let (up, along) = self.in_plane(azimuth);
         1.0 - (up * sin + along * cos)
     }
 
-    /// Cost of a position of the azimuth axis, with the elevation axis where it points best.
+    /// Returns the cost of a position of the azimuth axis with the best position of the elevation
+    /// axis.
     pub(super) fn azimuth_cost(&self, azimuth: SinCos) -> f64 {
         let (up, along) = self.in_plane(azimuth);
         let projection = |(sin, cos): SinCos| up * sin + along * cos;
@@ -99,7 +100,7 @@ impl View {
             Elevation::Helps(ends) => ends,
             Elevation::Stays(nominal) => return 1.0 - projection(nominal),
         };
-        // The sign of the cross product tells on which side of an end the direction lies.
+        // The sign of the cross product shows on which side of an end the direction lies.
         let is_beyond = |(sin, cos): SinCos| up * cos - along * sin > 0.0;
         if is_beyond(end) {
             1.0 - projection(end)
@@ -110,8 +111,8 @@ impl View {
         }
     }
 
-    /// The direction in the plane in which the elevation axis turns: its component upwards, and the
-    /// one towards the azimuth of the axis.
+    /// Projects the direction into the plane of the elevation axis: returns the component upwards,
+    /// and the component towards the azimuth of the axis.
     fn in_plane(&self, (sin, cos): SinCos) -> (f64, f64) {
         let ((up, out), (to_sin, to_cos)) = (self.height, self.azimuth);
         (up, out * (cos * to_cos + sin * to_sin))

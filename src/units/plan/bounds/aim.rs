@@ -1,4 +1,4 @@
-//! Where an antenna points: by its axes, and on the sky.
+//! Directions of an antenna: by its axes, and on the sky.
 //!
 //! Keep-outs and the Sun apply to both directions, because the pointing model may be wrong. The
 //! minimum elevation applies to the axes alone.
@@ -8,12 +8,12 @@ use glam::DVec3;
 use super::{Angle, AzEl, Bounds, BoundsAt};
 use crate::astro::PointingModel;
 
-/// The directions of one position of the axes.
+/// Directions of one position of the axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Aim {
-    /// Direction by the axes.
+    /// Direction by the axes alone, without the pointing model.
     pub(super) axes: AzEl,
-    /// Direction of the beam; `None` without a pointing model and without offsets of the axes.
+    /// Direction of the beam; `None` without a pointing model and without axis offsets.
     pub(super) sky: Option<AzEl>,
 }
 
@@ -27,7 +27,7 @@ impl Aim {
     }
 }
 
-/// An [`Aim`] as unit vectors.
+/// [`Aim`] as unit vectors.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AimVectors {
     axes: DVec3,
@@ -35,15 +35,15 @@ pub(super) struct AimVectors {
 }
 
 impl AimVectors {
-    /// The lesser clearance of both directions.
+    /// Returns the smaller clearance of both directions.
     pub(super) fn min_clearance(self, clearance: impl Fn(DVec3) -> Angle) -> Angle {
         let by_axes = clearance(self.axes);
         self.sky.map(clearance).filter(|on_sky| *on_sky < by_axes).unwrap_or(by_axes)
     }
 }
 
-/// Takes the angles of the axes: past the zenith, their direction has another azimuth and elevation,
-/// for which the model does not hold.
+/// Returns the beam direction for these angles of the axes. Past the zenith, the direction of the
+/// axes has another azimuth and elevation, to which the model does not apply.
 fn on_the_sky(model: &PointingModel, [first_deg, second_deg]: [f64; 2]) -> AzEl {
     model.direction(AzEl::from_degrees(first_deg, second_deg))
 }
@@ -61,7 +61,7 @@ impl BoundsAt<'_> {
         self.shifted(self.bounds.direction(axes_deg), sky)
     }
 
-    /// The aim of axes on this side of the zenith that count `direction`.
+    /// Returns the aim of axes on this side of the zenith that count `direction`.
     pub(super) fn aim_at(&self, direction: AzEl) -> Aim {
         self.shifted(direction, self.model.as_ref().map(|model| model.direction(direction)))
     }

@@ -1,7 +1,7 @@
-//! The first barrier that a range of positions reaches into.
+//! Search for the first barrier that a range of positions reaches into.
 //!
-//! One look at the middle of a part of the range settles the part for each barrier that is further
-//! away than the rest of the part. The others are looked at in its halves.
+//! A check of the middle of a part settles that part for each barrier beyond the rest of the part.
+//! The search checks the other barriers in its halves.
 
 use std::{cell::Cell, rc::Rc};
 
@@ -9,23 +9,24 @@ use super::{
     Angle, AzEl, Barrier, BoundsAt, FINEST_DEG, Mount, Sweep, aim::Aim, near::BarrierName,
 };
 
-/// A part of a range that is smaller than this counts as inside a barrier that may reach into it,
-/// degrees. A motion that goes no further than half of [`FINEST_DEG`] beyond an edge is free.
+/// Min size of a part of a range, degrees; a smaller part counts as inside a barrier that may reach
+/// into it. A motion that enters by at most half of [`FINEST_DEG`] is free.
 const SMALLEST_PART_DEG: f64 = FINEST_DEG / 2.0;
 
-/// Number of edges that one look may examine. Beyond it, the nearest barrier counts as entered: a
-/// way along a ragged edge must not hold up the thread that serves all antennas.
+/// Max number of edges that one check may examine. Beyond it, the nearest barrier counts as
+/// entered: a path along a ragged edge must not delay the thread that serves all antennas.
 const MAX_EDGES: usize = 20_000;
-/// Number of edges that all looks that share a [`Budget`] may examine.
+/// Max number of edges that all checks with a shared [`Budget`] may examine.
 const MAX_EDGES_IN_ALL: usize = 60_000;
-/// One look may use one part in this many of the edges left, so that every later look has some.
+/// Divisor of the remaining edges for one check, so that later checks keep a share.
 const LOOKS_PER_BUDGET: usize = 3;
-/// A search ends with fewer edges left: even a look that may examine none looks once at each barrier.
+/// Number of remaining edges below which a search ends. Even a check without a share examines each
+/// barrier once.
 const SPENT: usize = 2_000;
-/// Work for a part of a range before any edge, in edges.
+/// Cost of a part of a range besides its edges, in edges.
 const EDGES_OF_PART: usize = 20;
 
-/// The work left for the looks of one search, which must not hold up the thread that serves all
+/// Remaining budget for the checks of one search, which must not delay the thread that serves all
 /// antennas.
 #[derive(Debug, Clone)]
 pub struct Budget {
@@ -39,7 +40,7 @@ impl Default for Budget {
 }
 
 impl Budget {
-    /// Returns `true` if too little is left for a search to go on.
+    /// Returns `true` if the rest is too small to continue a search.
     pub fn is_spent(&self) -> bool {
         self.edges.get() < SPENT
     }
@@ -53,21 +54,22 @@ impl Budget {
     }
 }
 
-/// A barrier that a range of positions reaches into.
+/// Barrier that a range of positions reaches into.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Reached {
     pub(super) barrier: Barrier,
-    /// A direction inside it.
+    /// Direction inside the barrier.
     pub(super) direction: AzEl,
-    /// `false` if the work ended first, so the barrier only counts as reached.
+    /// `false` if the search exhausted its budget first, so the barrier only counts as reached.
     pub(super) is_settled: bool,
 }
 
 impl BoundsAt<'_> {
-    /// The first barrier that `sweep` reaches into: the barrier at `index`, or any that refuses motion
-    /// if it is `None`.
+    /// Returns the first barrier that `sweep` reaches into: the barrier at `index`, or any that
+    /// refuses motion if `index` is `None`.
     pub(super) fn blocks_from(&self, sweep: Sweep, index: Option<usize>) -> Option<Reached> {
-        // The floor is level, and so may be a side of the sweep: halves would never settle it.
+        // The floor is level, and so may be a side of the sweep: halves would never settle that
+        // case.
         if let Some(minimum) = self.minimum_elevation
             && index.is_none_or(|index| index == 0)
         {
@@ -92,8 +94,8 @@ impl BoundsAt<'_> {
         reached
     }
 
-    /// The first of these barriers that `sweep` reaches into. `allowed`: the number of edges that it
-    /// may examine before it gives up; `used`: the number that it has examined.
+    /// Returns the first of these barriers that `sweep` reaches into. `allowed`: max number of
+    /// edges before the search gives up; `used`: number of examined edges.
     fn first_reached(
         &self,
         sweep: Sweep,
@@ -107,16 +109,16 @@ impl BoundsAt<'_> {
             let aim = self.aim(part.middle());
             let vectors = aim.to_enu();
             let radius_deg = part.radius_deg() * self.max_beam_turn();
-            // Positions on the edge are free, even where the edge is a whole side of the sweep.
+            // Positions on the edge are free, even if the edge covers a whole side of the sweep.
             let limit = Angle::from_degrees(radius_deg - FINEST_DEG);
-            // A box of the axes says nothing about a beam that points elsewhere.
+            // A box of the axes does not bound a beam that points elsewhere.
             let as_box = self.box_of(part).filter(|_| aim.sky.is_none());
             let mut near = Vec::new();
             let mut nearest: Option<(usize, BarrierName<'_>, Angle)> = None;
             for index in barriers.iter().copied() {
                 let Some(barrier) = self.barrier(index, aim, vectors) else { continue };
                 let Some(angle) = barrier.angle_below(limit) else { continue };
-                // A far zone was ruled out by its cap, without a look at its edges.
+                // Its cap ruled a far zone out without an examination of its edges.
                 *used += barrier.cost();
                 let of_box = as_box.and_then(|(az, el)| barrier.lower_bound_in_box(az, el));
                 if of_box.is_some_and(|of_box| of_box.degrees() >= -FINEST_DEG) {
@@ -139,8 +141,8 @@ impl BoundsAt<'_> {
         None
     }
 
-    /// Azimuths and elevations of the directions that the axes count in `part`, unless they go past
-    /// the zenith or the mount is another one.
+    /// Returns the azimuths and elevations of the axis directions in `part`; `None` past the zenith
+    /// or for another mount.
     fn box_of(&self, part: Sweep) -> Option<((Angle, Angle), (Angle, Angle))> {
         let Sweep([azimuths, elevations]) = part;
         let is_plain = matches!(self.bounds.mount, Mount::AzEl { .. }) && elevations.1 <= 90.0;
@@ -149,7 +151,7 @@ impl BoundsAt<'_> {
         is_plain.then(|| (angles(azimuths), angles(elevations)))
     }
 
-    /// The direction of `aim` whose clearance from the barrier at `index` is `min`.
+    /// Returns the direction of `aim` whose clearance from the barrier at `index` is `min`.
     fn nearest_of(&self, aim: Aim, index: usize, min: Angle) -> AzEl {
         let is_nearest = |direction: &AzEl| {
             let only = Aim { axes: *direction, sky: None };
@@ -167,7 +169,7 @@ mod tests {
         station::{Antenna, Entered, KeepOut, Station},
     };
 
-    /// Eight keep-outs all round, each with 49 teeth up to 20 degrees.
+    /// Returns eight keep-outs all round, each with 49 teeth up to 20 degrees.
     fn saws() -> Vec<KeepOut> {
         let saw = |number: u32| {
             let from_deg = 45.0 * f64::from(number);
@@ -189,7 +191,7 @@ mod tests {
         (0..8).map(saw).collect()
     }
 
-    /// The bounds of an antenna amid the saws, and a turn just above them.
+    /// Returns the bounds of an antenna amid the saws, and a turn just above them.
     fn above_saws(tilt_deg: f64, turn_deg: f64) -> (Bounds, Sweep) {
         let station = Station { keep_outs: saws(), ..Station::default() };
         let mut antenna = Antenna::genius("Mast", "memory:1");
@@ -234,7 +236,7 @@ mod tests {
         let is_free = |tilt_deg, turn_deg| is_free_above_saws(tilt_deg, turn_deg, None);
         assert!(is_free(0.0, 360.0));
         assert!(is_free(2.0, 20.0));
-        // It is free, but to settle that would take too long.
+        // The sweep is free, but the proof would take too long.
         assert!(!is_free(2.0, 360.0));
     }
 }

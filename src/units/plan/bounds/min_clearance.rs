@@ -1,7 +1,7 @@
-//! The least clearances among the samples of a range of positions.
+//! Smallest clearances among the samples of a range of positions.
 //!
-//! A clearance changes by no more than the direction does. One look at the middle of a part of the
-//! range therefore rules the part out where it cannot come nearer than what was found elsewhere.
+//! A clearance changes by no more than the direction does. So a check of the middle rules out a
+//! part of the range that cannot come nearer than an earlier result.
 
 use super::{Angle, BoundsAt, Sweep};
 
@@ -9,8 +9,8 @@ use super::{Angle, BoundsAt, Sweep};
 type SampleRange = [(usize, usize); 2];
 
 impl BoundsAt<'_> {
-    /// The least clearance, among the samples of `place`, from each group of barriers. `groups` has
-    /// the group of each barrier in order; `None` for one that does not matter.
+    /// Returns the smallest clearance, among the samples of `place`, from each group of barriers.
+    /// `groups` contains the group of each barrier in order; `None` for an ignored barrier.
     pub(super) fn min_in_groups<const GROUPS: usize>(
         &self,
         place: Sweep,
@@ -68,7 +68,7 @@ impl BoundsAt<'_> {
     }
 }
 
-/// Both halves of a part of more than one sample.
+/// Returns both halves of a part of more than one sample.
 fn halves(part: SampleRange) -> Option<[SampleRange; 2]> {
     let [first, second] = part;
     let span = |(start, end): (usize, usize)| end - start;

@@ -1,17 +1,16 @@
-//! Clearances from barriers, computed no further than a check needs them.
+//! Clearances from barriers, computed only as far as a check needs them.
 
 use super::{Angle, Barrier, aim::AimVectors, sun::SunAhead};
 use crate::astro::Zone;
 
-/// A barrier, and how near it is to where the antenna points.
+/// Barrier, and its distance from the direction of the antenna.
 pub(super) struct Near<'a> {
     pub(super) name: BarrierName<'a>,
     pub(super) warns_only: bool,
     pub(super) angle: Clear<'a>,
 }
 
-/// The clearance from a barrier. Those from a zone and the Sun cost time, so they are computed on
-/// demand.
+/// Clearance from a barrier. A zone or the Sun costs time, so the clearance is computed on demand.
 pub(super) enum Clear<'a> {
     Known(Angle),
     OfZone { zone: &'a Zone, margin: Angle, vectors: AimVectors },
@@ -29,7 +28,8 @@ impl Near<'_> {
         }
     }
 
-    /// The clearance; where that is clearly no less than `limit`, an angle from `limit` up to it.
+    /// Returns the clearance. If it is clearly at least `limit`, returns any angle between `limit`
+    /// and the clearance.
     pub(super) fn angle_unless_from(&self, limit: Angle) -> Angle {
         match self.angle {
             Clear::Known(angle) => angle,
@@ -44,7 +44,7 @@ impl Near<'_> {
         }
     }
 
-    /// A clearance that no direction in a box falls below, as far as that is known at once.
+    /// Returns a lower bound of the clearance for all directions in a box, if available at once.
     pub(super) fn lower_bound_in_box(
         &self,
         azimuths: (Angle, Angle),
@@ -58,7 +58,7 @@ impl Near<'_> {
         }
     }
 
-    /// Number of edges that a look at the clearance goes through.
+    /// Returns the number of edges that a clearance check examines.
     pub(super) fn cost(&self) -> usize {
         match self.angle {
             Clear::Known(_) | Clear::OfSun { .. } => 1,
@@ -66,13 +66,13 @@ impl Near<'_> {
         }
     }
 
-    /// The clearance if it is less than `limit`.
+    /// Returns the clearance if it is less than `limit`.
     pub(super) fn angle_below(&self, limit: Angle) -> Option<Angle> {
         Some(self.angle_unless_from(limit)).filter(|angle| *angle < limit)
     }
 }
 
-/// A barrier with a borrowed name.
+/// Name of a barrier, borrowed for a keep-out.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum BarrierName<'a> {
     MinimumElevation,

@@ -1,4 +1,4 @@
-//! The surroundings of the Sun, now and during the time ahead.
+//! Surroundings of the Sun, now and during the time ahead.
 
 use std::cell::OnceCell;
 
@@ -8,33 +8,33 @@ use jiff::{SignedDuration, Timestamp};
 use super::{Angle, AzEl, Bounds, BoundsAt, FINEST_DEG, Site, SunAvoidance};
 use crate::astro::sun_moon;
 
-/// Shortest interval between two positions of the Sun, seconds: the Sun moves a tenth of
-/// a degree in it.
+/// Min interval between two positions of the Sun, seconds: the Sun moves a tenth of a degree in
+/// this time.
 const SUN_STEP_S: f64 = 24.0;
-/// Maximum number of positions of the Sun for any time ahead.
+/// Max number of positions of the Sun for any time ahead.
 const MAX_SUNS: f64 = 40.0;
-/// Fastest motion of the Sun, degrees per second.
+/// Max rate of the Sun, degrees per second.
 const SUN_DEG_S: f64 = 360.0 / 86_164.0;
-/// Max apparent motion of the Sun per degree of its true motion: refraction stretches it close below
-/// the horizon.
+/// Max apparent motion of the Sun per degree of its true motion: refraction stretches it close
+/// below the horizon.
 const MAX_STRETCH: f64 = 2.0;
-/// Distance between the rings that are searched for a refuge from the Sun, degrees.
+/// Distance between the rings of a search for a refuge from the Sun, degrees.
 const RING_DEG: f64 = 0.5;
 /// Number of directions on each ring.
 const BEARINGS: u32 = 24;
-/// Radius of the largest ring, beyond the motion of the Sun, degrees.
+/// Radius of the largest ring beyond the motion of the Sun, degrees.
 const BEYOND_DEG: f64 = 30.0;
 
 impl Bounds {
-    /// The bounds without the Sun, for an antenna that is meant to point at it.
+    /// Returns the bounds without the Sun, for an antenna that must point at the Sun.
     #[must_use]
     pub fn without_the_sun(&self) -> Self {
         Self { sun: None, ..self.clone() }
     }
 
-    /// The bounds for a way out of the surroundings of the Sun that leads no nearer to the Sun than
-    /// the antenna is with its axes at `start_deg`; `None` if it is outside. Of its directions by
-    /// the axes and on the sky, the one nearer to the Sun counts.
+    /// Returns the bounds for a way out of the surroundings of the Sun that leads no nearer to the
+    /// Sun than the axes at `start_deg`. Returns `None` if the antenna is outside. Uses the axis
+    /// direction or the sky direction, whichever is nearer to the Sun.
     pub fn away_from_the_sun(&self, start_deg: [f64; 2], time: Timestamp) -> Option<Self> {
         let sun = self.sun?;
         let ahead = SunAhead::new(self.site, sun, time);
@@ -46,8 +46,8 @@ impl Bounds {
         (clearance_deg < 0.0).then(|| Self { sun: Some(closer), ..self.clone() })
     }
 
-    /// Returns `true` if an antenna with axes that count `direction` is clear of all barriers, and of
-    /// the Sun throughout the time ahead.
+    /// Returns `true` if an antenna with axes that count `direction` is clear of all barriers, and
+    /// of the Sun throughout the time ahead.
     pub fn stays_clear(&self, direction: AzEl, time: Timestamp) -> bool {
         are_clear(&self.now_and_later(time), direction)
     }
@@ -58,7 +58,7 @@ impl Bounds {
         std::iter::once(time).chain(later).map(|utc| self.at_time(utc)).collect()
     }
 
-    /// Directions of the axes that stay clear, the nearest to `start` first.
+    /// Returns directions of the axes that stay clear, the nearest to `start` first.
     pub fn refuges(&self, start: AzEl, time: Timestamp) -> impl Iterator<Item = AzEl> + '_ {
         let furthest_deg = self.sun.map_or(0.0, |sun| 2.0 * sun.radius_deg + BEYOND_DEG);
         let rings = (1..).map(f64::from).take_while(move |ring| ring * RING_DEG <= furthest_deg);
@@ -71,15 +71,15 @@ impl Bounds {
     }
 }
 
-/// The Sun from one time to the end of the time ahead.
+/// Positions of the Sun from one time to the end of the time ahead.
 #[derive(Debug, Clone)]
 pub(super) struct SunAhead {
     site: Site,
     sun: SunAvoidance,
     computed_at: Timestamp,
-    /// Unit vector to the Sun at first.
+    /// Unit vector to the Sun at the first time.
     first: DVec3,
-    /// Unit vectors to the Sun, the first one included.
+    /// Unit vectors to the Sun, including the first one.
     all: OnceCell<Vec<DVec3>>,
 }
 
@@ -89,7 +89,7 @@ impl SunAhead {
         Self { site, sun, computed_at: time, first, all: OnceCell::new() }
     }
 
-    /// The least clearance of a direction from the surroundings of the Sun.
+    /// Returns the smallest clearance of a direction from the surroundings of the Sun.
     pub(super) fn clearance_of(&self, direction: DVec3) -> Angle {
         let chords = self.all().iter().map(|sun| sun.distance_squared(direction));
         let radius = Angle::from_degrees(around_each_deg(self.sun));
@@ -97,7 +97,7 @@ impl SunAhead {
         across(chords.fold(4.0, f64::min)) - radius
     }
 
-    /// A lower bound of [`Self::clearance_of`], from the first position alone.
+    /// Returns a lower bound of [`Self::clearance_of`], from the first position alone.
     pub(super) fn clearance_lower_bound(&self, direction: DVec3) -> Angle {
         let moved_deg = SUN_DEG_S * self.sun.ahead_min * 60.0 * MAX_STRETCH;
         let radius = Angle::from_degrees(around_each_deg(self.sun) + moved_deg);
@@ -118,9 +118,9 @@ impl SunAhead {
     }
 }
 
-/// The angle across a chord of the unit sphere.
+/// Returns the angle across a chord of the unit sphere.
 fn across(chord_squared: f64) -> Angle {
-    // The chord stays precise near zero, where the cosine does not.
+    // The chord stays precise near zero, unlike the cosine.
     Angle::from_radians(2.0 * (chord_squared.sqrt() / 2.0).min(1.0).asin())
 }
 
@@ -136,8 +136,8 @@ fn sun_step_s(sun: SunAvoidance) -> f64 {
     SUN_STEP_S.max(sun.ahead_min * 60.0 / MAX_SUNS)
 }
 
-/// Radius around each position of the Sun, degrees: wide enough to leave no gap
-/// between two of them.
+/// Returns the radius around each position of the Sun, degrees: wide enough to leave no gap between
+/// two positions.
 fn around_each_deg(sun: SunAvoidance) -> f64 {
     let half_deg = sun_step_s(sun) * SUN_DEG_S / 2.0;
     sun.radius_deg.hypot(half_deg) + FINEST_DEG

@@ -1,10 +1,10 @@
 //! Ranges of the axes.
 
-/// Smallest distance between two positions at which a range of positions is sampled, degrees.
+/// Min distance between two samples of a range of positions, degrees.
 const SAMPLE_DEG: f64 = 1.0;
-/// Maximum number of steps along an axis whose range alone is sampled.
+/// Max number of steps along an axis if only its range is sampled.
 const STEPS_OF_ONE: f64 = 128.0;
-/// Maximum number of steps along each axis where both are sampled.
+/// Max number of steps along each axis if both ranges are sampled.
 const STEPS_OF_BOTH: f64 = 16.0;
 
 /// Ranges of both axes, degrees as the mount counts, each from the lower to the
@@ -13,18 +13,18 @@ const STEPS_OF_BOTH: f64 = 16.0;
 pub struct Sweep(pub [(f64, f64); 2]);
 
 impl Sweep {
-    /// The ranges that both axes sweep between two positions.
+    /// Returns the ranges that both axes sweep between two positions.
     pub fn new(from_deg: [f64; 2], to_deg: [f64; 2]) -> Self {
         let [(a, b), (c, d)] = [(from_deg[0], to_deg[0]), (from_deg[1], to_deg[1])];
         Self([(a.min(b), a.max(b)), (c.min(d), c.max(d))])
     }
 
-    /// The single position `axes_deg`.
+    /// Returns a sweep of the single position `axes_deg`.
     pub fn at_position(axes_deg: [f64; 2]) -> Self {
         Self(axes_deg.map(|deg| (deg, deg)))
     }
 
-    /// The smallest sweep that contains both.
+    /// Returns the smallest sweep that contains both.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
         let [(a, b), (c, d)] = self.0;
@@ -32,7 +32,7 @@ impl Sweep {
         Self([(a.min(e), b.max(f)), (c.min(g), d.max(h))])
     }
 
-    /// The sweep after each axis has turned by `by_deg`.
+    /// Returns the sweep after each axis has turned by `by_deg`.
     #[must_use]
     pub fn turned(self, by_deg: [f64; 2]) -> Self {
         let [(a, b), (c, d)] = self.0;
@@ -48,21 +48,20 @@ impl Sweep {
         [[a, c], [a, d], [b, c], [b, d]]
     }
 
-    /// Number of steps in which each axis is sampled.
+    /// Returns the number of sample steps of each axis.
     fn steps(self) -> [f64; 2] {
         let is_range = self.0.map(|(start, end)| start < end);
         let max = if is_range == [true; 2] { STEPS_OF_BOTH } else { STEPS_OF_ONE };
         self.0.map(|(first, last)| ((last - first) / SAMPLE_DEG).ceil().clamp(0.0, max))
     }
 
-    /// Largest angle between a direction of the axes in the sweep and that of its nearest sample,
-    /// degrees.
+    /// Returns the max angle between a direction in the sweep and its nearest sample, degrees.
     pub(super) fn sampled_within_deg(self) -> f64 {
         let widths = self.0.iter().map(|(start, end)| end - start);
         widths.zip(self.steps()).map(|(width, steps)| width / steps.max(1.0) / 2.0).sum()
     }
 
-    /// Evenly spaced positions, with both ends of each axis.
+    /// Returns evenly spaced positions, including both ends of each axis.
     pub(super) fn sampled(self) -> SweepSamples {
         SweepSamples { sweep: self, steps: self.steps().map(|steps| steps as usize) }
     }
@@ -75,12 +74,12 @@ impl Sweep {
         })
     }
 
-    /// Largest angle between a direction of the axes in the sweep and that of its middle, degrees.
+    /// Returns the max angle between a direction in the sweep and its middle, degrees.
     pub(super) fn radius_deg(self) -> f64 {
         self.0.iter().map(|(start, end)| (end - start) / 2.0).sum()
     }
 
-    /// The sweep, cut in half across its longer side.
+    /// Cuts the sweep in half across its longer side.
     pub(super) fn halves(self) -> [Self; 2] {
         let [(a, b), (c, d)] = self.0;
         if b - a >= d - c {
@@ -102,7 +101,7 @@ pub(super) struct SweepSamples {
 }
 
 impl SweepSamples {
-    /// The sample after this number of steps along each axis.
+    /// Returns the sample after this number of steps along each axis.
     pub(super) fn sample(self, [first, second]: [usize; 2]) -> [f64; 2] {
         let (Sweep([firsts, seconds]), [all_first, all_second]) = (self.sweep, self.steps);
         let place = |(start, end): (f64, f64), step: usize, all: usize| {

@@ -1,56 +1,58 @@
-//! The way out of the barriers that an antenna is inside of.
+//! Way out of the barriers that contain an antenna.
 //!
 //! The nearest edge is not a way out if the minimum elevation, the end of the travel or another
-//! barrier lies behind it. Depth is therefore measured along what an axis can really do: turn one
-//! way until the antenna points in an allowed direction.
+//! barrier lies behind it. Azel therefore measures depth along a possible turn: one axis turns in
+//! one direction until the antenna points in an allowed direction.
 
 use super::{AzEl, BarrierName, Bounds, BoundsAt, Sweep};
 use crate::{astro::Angle, station::Mount};
 
-/// Finest step along a turn, degrees.
+/// Min step along a turn, degrees.
 const STEP_DEG: f64 = 0.1;
-/// Accuracy of an edge, degrees. Depths at neighbouring positions are compared.
+/// Accuracy of an edge, degrees. Azel compares depths at neighbouring positions.
 const EDGE_DEG: f64 = 1e-9;
-/// Accuracy of an edge for an antenna without an elevation axis, whose every look costs as much as
-/// a hundred others, degrees. Only ways out are compared.
+/// Accuracy of an edge for an antenna without an elevation axis, degrees. Each of its checks costs
+/// as much as a hundred others. Azel compares only ways out.
 const EDGE_OF_AZIMUTH_DEG: f64 = 0.01;
-/// Widest gap that does not count as a way out, degrees of the axis: a motion that is judged ahead
-/// never gets into it.
+/// Max gap that does not count as a way out, degrees of the axis: a motion judged ahead never
+/// enters it.
 const GAP_DEG: f64 = 1.0;
-/// Turn over which the speed of an axis across the sky is measured, degrees.
+/// Turn over which Azel measures the speed of an axis across the sky, degrees.
 const STRETCH_DEG: f64 = 0.01;
-/// Largest turn of an axis to get out, degrees.
+/// Max turn of an axis to get out, degrees.
 const FURTHEST_DEG: f64 = 360.0;
 
-/// Groups of barriers: those to get out of and those not to enter, in each case without the minimum
-/// elevation of a turn that keeps the elevation, and that minimum elevation itself.
+/// Groups of barriers: those to leave and those not to enter. Each kind has a second group for the
+/// minimum elevation of a turn that keeps the elevation.
 const LEFT: usize = 0;
 const OTHERS: usize = 1;
 const LEFT_BELOW: usize = 2;
 const ABOVE: usize = 3;
 
-/// A position along a turn.
+/// Position along a turn.
 enum Spot {
-    /// Outside all barriers.
+    /// Position outside all barriers.
     Free,
-    /// Inside a barrier. No edge and no other barrier is nearer than this, degrees.
+    /// Position inside a barrier, with a lower bound of the distance to any edge and other barrier,
+    /// degrees.
     Inside(f64),
-    /// Inside a barrier that the axes were not in at the start.
+    /// Position inside a barrier that did not contain the axes at the start.
     Barred,
 }
 
 impl BoundsAt<'_> {
-    /// The shortest turn of one axis that leads out, within its travel and through no other
-    /// barrier, in degrees of the sky; zero outside all barriers. `None` if there is no such turn.
+    /// Returns the shortest turn of one axis that leads out, within its travel and through no other
+    /// barrier, in degrees of the sky; zero outside all barriers. Returns `None` without such a
+    /// turn.
     ///
-    /// Where the position of an axis is a range, the whole range has to get out.
+    /// If the position of an axis is a range, the whole range must get out.
     pub fn way_out_deg(&self, place: Sweep) -> Option<f64> {
         let left = self.entered(place);
         if !left.contains(&true) {
             return Some(0.0);
         }
         let mut shortest_deg = None;
-        // The azimuth may turn the furthest, so it comes last.
+        // The azimuth may turn the furthest, so try it last.
         for (axis, way) in [(1, 1.0), (1, -1.0), (0, 1.0), (0, -1.0)] {
             if axis == 1 && !self.bounds.has_elevation {
                 continue;
@@ -67,8 +69,8 @@ impl BoundsAt<'_> {
         shortest_deg
     }
 
-    /// How far the azimuth has to turn to lead out through no other barrier, upwards if `way` is
-    /// positive, degrees; `None` if it does not lead out within its travel.
+    /// Returns the turn of the azimuth that leads out through no other barrier, degrees, upwards if
+    /// `way` is positive. Returns `None` if no such turn lies within its travel.
     pub fn azimuth_out_deg(&self, place: Sweep, way: f64) -> Option<f64> {
         let left = self.entered(place);
         let turn = self.turn(place, 0, way.signum());
@@ -77,8 +79,8 @@ impl BoundsAt<'_> {
         })
     }
 
-    /// Depth below the minimum elevation, and depth inside each other barrier to its nearest edge,
-    /// degrees; zero outside.
+    /// Returns the depth below the minimum elevation, and the depth inside each other barrier to
+    /// its nearest edge, degrees; zero outside.
     pub fn depths_deg(&self, place: Sweep) -> (f64, Vec<f64>) {
         let (mut below_deg, mut inside_deg) = (0.0, Vec::new());
         let clearances = self.each_in(place);
@@ -93,7 +95,7 @@ impl BoundsAt<'_> {
         (below_deg, inside_deg)
     }
 
-    /// For each barrier, in order, whether a position in `place` is inside it.
+    /// Returns for each barrier, in order, whether a position in `place` is inside it.
     fn entered(&self, place: Sweep) -> Vec<bool> {
         let clearances = self.each_in(place).into_iter();
         clearances.map(|(_, angle, warns_only)| !warns_only && angle.degrees() < 0.0).collect()
@@ -139,7 +141,7 @@ impl BoundsAt<'_> {
             })
             .collect();
         let minima = self.min_in_groups::<4>(place, &groups).map(Angle::degrees);
-        // Tested first: another barrier bars the turn even where it overlaps the one to get out of.
+        // Test this first: another barrier bars the turn even if it overlaps the barrier to leave.
         if minima[OTHERS].min(minima[ABOVE]) < 0.0 {
             Spot::Barred
         } else if minima[LEFT_BELOW] < 0.0 {
@@ -152,18 +154,19 @@ impl BoundsAt<'_> {
     }
 }
 
-/// A turn of one axis in one direction.
+/// Turn of one axis in one direction.
 struct Turn {
-    /// Where the axes may be at the start of the turn.
+    /// Possible positions of the axes at the start of the turn.
     start: Sweep,
     axis: usize,
-    /// 1 or -1.
+    /// Sign of the direction, 1 or -1.
     way: f64,
-    /// Largest turn within the travel; an axis beyond its opposite end may come back.
+    /// Max turn within the travel; an axis beyond its opposite end may come back.
     end_deg: f64,
-    /// Degrees by the axes per degree of the axis, constant throughout the turn.
+    /// Angle of the axis direction per degree of the axis, degrees, constant throughout the turn.
     speed: f64,
-    /// The same for the faster of the axes and the beam, throughout the turn.
+    /// Max angle of the axis direction or the beam per degree of the axis, degrees, throughout the
+    /// turn.
     max_speed: f64,
     keeps_elevation: bool,
 }
@@ -173,7 +176,8 @@ impl Turn {
         place.turned(if axis == 0 { [by_deg, 0.0] } else { [0.0, by_deg] })
     }
 
-    /// Turn after which `spot` is free, at most `max_deg` and accurate to `edge_deg`, degrees.
+    /// Returns the turn after which `spot` is free, at most `max_deg` and accurate to `edge_deg`,
+    /// degrees.
     fn out_deg(
         &self,
         max_deg: f64,
@@ -187,7 +191,7 @@ impl Turn {
                 Spot::Inside(_) if turn_deg >= last_deg => return None,
                 Spot::Inside(step_deg) => {
                     inside_deg = turn_deg;
-                    // At an edge the clearance is zero, and only a minimum step leads on.
+                    // At an edge the clearance is zero, and only a minimum step makes progress.
                     let step_deg = (step_deg / self.max_speed).max(STEP_DEG);
                     // The edge may lie just before the end of the travel.
                     turn_deg = f64::min(turn_deg + step_deg, last_deg);
@@ -221,7 +225,7 @@ mod tests {
         station::{Antenna, Entered, KeepOut, Station},
     };
 
-    /// The keep-out reaches below the minimum elevation of 5 degrees.
+    /// Returns bounds with a keep-out that reaches below the minimum elevation of 5 degrees.
     fn bounds() -> Bounds {
         bounds_to(360.0)
     }
@@ -304,7 +308,7 @@ mod tests {
         assert_eq!(way_out_deg([90.0, 30.0]), Some(0.0));
     }
 
-    /// A jog is judged repeatedly while it is held, so each look at a direction costs time.
+    /// Azel judges a held jog repeatedly, so each check of a direction costs time.
     #[test]
     fn a_way_along_the_floor_is_found_in_few_looks() {
         for axes_deg in [[130.0, 5.0], [130.0, 5.01], [130.0, 4.99]] {

@@ -11,83 +11,83 @@ use crate::{
     device::{Offsets, OnBoard, Place},
 };
 
-/// Smallest error that is listed as a cause, degrees.
+/// Min error listed as a cause, degrees.
 const WORTH_NAMING_DEG: f64 = 0.02;
-/// Largest difference in maximum elevation that is ignored, degrees: the unit reports the elevation
-/// roughly, and the window is not the whole pass.
+/// Max ignored difference in maximum elevation, degrees: the unit reports the elevation roughly,
+/// and the window is not the whole pass.
 const HIGHEST_ROUGH_DEG: f64 = 3.0;
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Cause {
-    /// The unit points at the geometric direction, below where the satellite appears.
+    /// Geometric direction of the unit, below the apparent direction of the satellite.
     Refraction,
-    /// The unit uses another location.
+    /// Different location of the unit.
     Place {
         place: Place,
-        /// Distance from the station.
+        /// Distance from the station, km.
         away_km: f64,
     },
-    /// The clock of the unit is ahead of UTC.
+    /// Clock of the unit ahead of UTC, seconds.
     Clock { ahead_s: f64 },
-    /// The unit shifts the track in time.
+    /// Time shift of the unit's track, seconds.
     TimeOffset { offset_s: f64 },
     /// Offset of the azimuth, degrees.
     AzimuthOffset(f64),
     /// Offset of the elevation, degrees.
     ElevationOffset(f64),
-    /// The north of the unit differs from that of the station.
+    /// North of the unit that differs from the station's north.
     NorthOffset {
-        /// As reported by the unit, degrees.
+        /// North offset reported by the unit, degrees.
         offset_deg: f64,
         /// Difference from the north of the station, degrees.
         off_deg: f64,
     },
-    /// The minimum elevation of the unit is above that of the pass.
+    /// Minimum elevation of the unit, degrees, if it is above the minimum of the pass.
     MinimumElevation(f64),
-    /// The unit holds another satellite.
+    /// Different satellite on the unit.
     OtherSatellite {
-        /// 0 for none.
+        /// Catalog number of the unit's satellite; 0 for none.
         catalog_number: u32,
         name: String,
     },
-    /// The unit predicts another maximum elevation, so its elements differ.
+    /// Different elements on the unit, which predicts another maximum elevation.
     Elements {
         /// Maximum elevation reported by the unit, degrees.
         told_deg: f64,
-        /// Maximum elevation computed from the location of the unit and the best known
-        /// elements, degrees.
+        /// Maximum elevation computed from the location of the unit and the best known elements,
+        /// degrees.
         expected_deg: f64,
     },
 }
 
-/// A cause with the error that it makes alone.
+/// Cause, with the error that it makes alone.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Ranked {
     pub cause: Cause,
-    /// The largest error that this cause makes alone; `None` if unknown.
+    /// Max error that this cause makes alone; `None` if unknown.
     #[serde(rename = "off")]
     pub max_error: Option<Angle>,
 }
 
-/// Share of an error that a cause has to make to be named for it. The known part of a cause is its
-/// largest error in a pass, so it may well make less at the moment.
+/// Min share of an error that a cause must make to count. A cause is known by its max error in a
+/// pass, so it may make less at the moment.
 const MADE_SHARE: f64 = 0.7;
 
 impl Ranked {
-    /// Returns `true` if this cause can make an error of `deviation`, by far the most of it. A cause whose
-    /// error is unknown can.
+    /// Returns `true` if this cause can make most of an error of `deviation`, or if its own error
+    /// is unknown.
     pub fn can_make(&self, deviation: Angle) -> bool {
         self.max_error.is_none_or(|own| own.degrees() >= MADE_SHARE * deviation.degrees())
     }
 }
 
-/// A value that a unit does not report.
+/// Value that a unit does not report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Unknown {
     Place,
     Clock,
     Offsets,
-    /// The age of the elements, which no unit reports.
+    /// Age of the elements, which no unit reports.
     Elements,
 }
 
@@ -101,7 +101,7 @@ pub(super) fn unknown(on_board: &OnBoard) -> Vec<Unknown> {
     open.into_iter().filter_map(|(is_open, problem)| is_open.then_some(problem)).collect()
 }
 
-/// All causes: first those whose error is unknown, then the others, the largest error first.
+/// Returns all causes: first those with an unknown error, then the others, the largest error first.
 pub(super) fn ranked(judge: &Judge, on_board: &OnBoard, holds_target: bool) -> Vec<Ranked> {
     let right = UnitPath::right(judge);
     let alone = |unit: UnitPath<'_>| {
@@ -152,7 +152,7 @@ pub(super) fn ranked(judge: &Judge, on_board: &OnBoard, holds_target: bool) -> V
     ranked
 }
 
-/// Another satellite, or other elements of the same one.
+/// Returns the cause of a different satellite, or of different elements of the same one.
 fn satellite(judge: &Judge, on_board: &OnBoard) -> Option<Ranked> {
     let held_satellite = on_board.satellite.as_ref()?;
     let target = &judge.pass.target;

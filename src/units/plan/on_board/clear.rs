@@ -1,4 +1,4 @@
-//! Checks a path against the limits of an antenna.
+//! Check of a path against the limits of an antenna.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -10,11 +10,11 @@ use crate::{
     station::Mount,
 };
 
-/// The clock, location and whole seconds of a unit shift its path by about this much, degrees: a
-/// path that exceeds a bound by less counts as running along it.
+/// Typical shift of a path by the clock, location and whole seconds of a unit, degrees. A path that
+/// exceeds a bound by less counts as running along it.
 pub const ALONG_DEG: f64 = 0.5;
 
-/// The first position at which a path leaves the limits.
+/// First position at which a path leaves the limits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Trespass {
     #[serde(rename = "at")]
@@ -23,21 +23,21 @@ pub struct Trespass {
     pub limit: OffLimits,
 }
 
-/// Why a unit may not track a path by itself.
+/// Reason why a unit may not track a path on its own.
 #[derive(Debug, Clone, PartialEq)]
 pub enum NotClear {
     Leads(Trespass),
-    /// The elements yield no direction at this time, so the path is unknown.
+    /// Unknown path: the elements yield no direction at this time.
     NoDirection(Timestamp),
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum OffLimits {
-    /// Below the minimum elevation, degrees.
+    /// Position below the minimum elevation `lowest_deg`, degrees.
     Elevation { lowest_deg: f64 },
-    /// Beyond the travel of the axes.
+    /// Position beyond the travel of the axes.
     Travel,
-    /// Inside a keep-out or the surroundings of the Sun.
+    /// Position inside a keep-out or the surroundings of the Sun.
     Forbidden(Barrier),
 }
 

@@ -1,4 +1,4 @@
-//! The real path of an antenna whose unit tracks by itself.
+//! Real path of an antenna whose unit tracks on its own.
 
 use jiff::Timestamp;
 
@@ -14,16 +14,16 @@ use crate::{
     station::Mount,
 };
 
-/// Maximum number of steps in which the error of a pass is sampled.
+/// Max number of steps in which the error of a pass is sampled.
 const LOOKS: f64 = 240.0;
-/// Longest time between two samples of a path that are more than [`STEP_DEG`] apart, seconds.
+/// Max time between two samples of a path that are more than [`STEP_DEG`] apart, seconds.
 const STEP_S: f64 = 1.0;
-/// Largest angle between two samples of a path that are more than [`STEP_S`] apart, degrees.
+/// Max angle between two samples of a path that are more than [`STEP_S`] apart, degrees.
 const STEP_DEG: f64 = 0.5;
-/// Longest step for a target that hardly moves, seconds.
+/// Max step for a target that hardly moves, seconds.
 const LONGEST_STEP_S: f64 = 60.0;
 
-/// Equal steps from `start` to `end`, both included.
+/// Returns equal steps from `start` to `end`, both included.
 pub(super) fn spread(start: Timestamp, end: Timestamp) -> impl Iterator<Item = Timestamp> {
     let span_s = seconds_between(start, end).max(0.0);
     let step_s = (span_s / LOOKS).max(STEP_S);
@@ -31,7 +31,7 @@ pub(super) fn spread(start: Timestamp, end: Timestamp) -> impl Iterator<Item = T
     (0..=count).map(move |index| add_seconds(start, (f64::from(index) * step_s).min(span_s)))
 }
 
-/// The data by which a unit tracks.
+/// Data by which a unit tracks.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct UnitPath<'a> {
     pub(super) propagator: &'a Propagator,
@@ -39,14 +39,15 @@ pub(super) struct UnitPath<'a> {
     pub(super) site: Site,
     pub(super) ahead_s: f64,
     pub(super) offsets: Offsets,
-    /// The azimuth that the unit reports minus the real one.
+    /// Reported azimuth of the unit minus the real one.
     pub(super) turned: Angle,
-    /// It points where a satellite appears, as no unit is documented to do.
+    /// `true` for a unit that points at the apparent satellite; no unit's documentation describes
+    /// this.
     pub(super) refracts: bool,
 }
 
 impl<'a> UnitPath<'a> {
-    /// A unit that computes exactly as Azel does.
+    /// Returns a unit that computes exactly like Azel.
     pub(super) fn right(judge: &'a Judge) -> Self {
         let target = &judge.pass.target;
         Self {
@@ -60,7 +61,8 @@ impl<'a> UnitPath<'a> {
         }
     }
 
-    /// A unit with the report `on_board`. Values that it does not report are taken as right.
+    /// Creates a unit with the report `on_board`. Assumes correct values where the unit reports
+    /// none.
     pub(super) fn new(on_board: &OnBoard, judge: &'a Judge) -> Self {
         let right = Self::right(judge);
         let offsets = on_board.offsets.unwrap_or(right.offsets);
@@ -74,23 +76,23 @@ impl<'a> UnitPath<'a> {
         }
     }
 
-    /// The unit with a clock that is off only by what is certain: late replies make no error of
-    /// pointing.
+    /// Creates the unit with only the certain part of its clock error: late replies make no
+    /// pointing error.
     pub(super) fn surely(on_board: &OnBoard, judge: &'a Judge) -> Self {
         let ahead_s = on_board.clock.map_or(0.0, UnitClock::surely_ahead_s);
         Self { ahead_s, ..Self::new(on_board, judge) }
     }
 
-    /// The unit with either sign of the time offset, since it is not known which way the
-    /// unit applies it.
+    /// Returns the unit with either sign of the time offset, because the unit's sign convention is
+    /// unknown.
     pub(super) fn either_way(self) -> impl Iterator<Item = Self> {
         let negated = Offsets { time_s: -self.offsets.time_s, ..self.offsets };
         let other = (self.offsets.time_s != 0.0).then_some(Self { offsets: negated, ..self });
         std::iter::once(self).chain(other)
     }
 
-    /// Direction of the satellite as the unit computes it at `time` by Azel's clock.
-    /// Outside its window, the direction at the nearer end of the window.
+    /// Returns the direction of the satellite that the unit computes at `time` by Azel's clock.
+    /// Outside its window, returns the direction at the nearer end of the window.
     pub(super) fn computed(&self, time: Timestamp) -> Option<AzEl> {
         let (start, stop) = self.window;
         let own = add_seconds(time, self.ahead_s).clamp(start, stop.max(start));
@@ -99,7 +101,7 @@ impl<'a> UnitPath<'a> {
         Some(self.propagator.look_from(site, shifted).ok()?.direction)
     }
 
-    /// Real direction of the antenna at `time` by Azel's clock.
+    /// Returns the real direction of the antenna at `time` by Azel's clock.
     pub(super) fn direction(&self, time: Timestamp) -> Option<AzEl> {
         let AzEl { azimuth, elevation } = self.computed(time)?;
         let lowest = Angle::from_degrees(self.offsets.minimum_elevation_deg);
@@ -113,14 +115,14 @@ impl<'a> UnitPath<'a> {
     }
 }
 
-/// The location that a unit reports, at the altitude of `ours`. A location that equals `ours` to
-/// its resolution is `ours`.
+/// Returns the location that a unit reports, at the altitude of `ours`. Returns `ours` if both are
+/// equal to the resolution of the report.
 pub(super) fn site(on_board: &OnBoard, ours: Site) -> Option<Site> {
     on_board.place?.as_site(ours)
 }
 
-/// Error of the azimuth that a north offset makes. The zero of the offset is that of the mount,
-/// which the station may know as the azimuth of the lower axis.
+/// Returns the azimuth error that a north offset makes. The offset counts from the zero of the
+/// mount, which the station may know as the azimuth of the lower axis.
 pub(super) fn turned(north_deg: f64, mount: Mount) -> Angle {
     let north = Angle::from_degrees(north_deg).wrapped_180();
     let Mount::Xy { lower_axis_azimuth_deg, .. } = mount else { return north };
@@ -134,8 +136,8 @@ pub(super) fn turned(north_deg: f64, mount: Mount) -> Angle {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct NoDirection(pub(super) Timestamp);
 
-/// Samples the path of `unit` while its clock runs through `window`. Ends at the first sample without
-/// a direction.
+/// Samples the path of `unit` while its clock runs through `window`. Ends at the first sample
+/// without a direction.
 pub(super) fn samples(
     unit: UnitPath<'_>,
     (start, stop): (Timestamp, Timestamp),

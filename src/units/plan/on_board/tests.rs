@@ -22,7 +22,7 @@ fn pass() -> Pass {
     *PASS
 }
 
-/// A high pass that begins and ends at 10 degrees.
+/// Returns a high pass that begins and ends at 10 degrees.
 fn find_pass() -> Pass {
     let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
     let aos_elevation = Angle::from_degrees(10.0);
@@ -79,8 +79,8 @@ fn report_with(change: impl FnOnce(&mut Offsets)) -> OnBoard {
     unit
 }
 
-/// The largest separation from the satellite over the pass, checked every second, of an antenna
-/// that points in the direction that `direction_at` gives for a time.
+/// Returns the largest separation from the satellite over the pass, checked every second.
+/// `direction_at` gives the direction of the antenna at a time.
 fn worst_deg(direction_at: impl Fn(Timestamp) -> AzEl) -> f64 {
     let seconds = pass().duration_s() as u32;
     (0..=seconds)
@@ -96,7 +96,7 @@ fn look(place: Site, time: Timestamp) -> AzEl {
     PROPAGATOR.look_from(place, time).unwrap().direction
 }
 
-/// The only cause and its error, which must be the whole error.
+/// Returns the only cause and its error, which must be the whole error.
 fn only(unit: &OnBoard) -> (Cause, f64) {
     let found = judge().supervise(unit, true);
     let [Ranked { cause, max_error: Some(deviation) }] = &found.causes[..] else {
@@ -110,7 +110,7 @@ fn assert_near(found: f64, expected: f64) {
     assert!((found - expected).abs() < 0.02 * expected.max(1.0), "{found}, expected {expected}");
 }
 
-/// Bounds that forbid nothing at the site.
+/// Returns bounds that forbid nothing at the site.
 fn open_sky() -> crate::plan::Bounds {
     crate::plan::Bounds::of_antenna(&Antenna::satrak("Dish", ""))
 }
@@ -310,7 +310,7 @@ fn a_path_below_the_limit_or_beyond_the_travel_says_where_first() {
         }),
     );
     assert!(matches!(sunk.limit, OffLimits::Elevation { .. }));
-    // Late by the time offset, whichever way the unit applies it.
+    // The unit is late by the time offset, whichever way it applies the offset.
     let late = report_with(|offsets| {
         (offsets.time_s, offsets.minimum_elevation_deg) = (120.0, 0.0);
     });
@@ -328,7 +328,7 @@ fn a_unit_that_leaves_refraction_out_is_told_apart_and_still_takes_the_pass() {
     let aos = pass().aos;
     let lifted = judge.direction(aos.time).unwrap();
     let off_deg = lifted.separation(aos.direction).degrees();
-    // At 10 degrees.
+    // The pass begins at 10 degrees.
     assert!((0.08..0.1).contains(&off_deg) && lifted.elevation > aos.direction.elevation);
     let found = judge.supervise(&right(), true);
     assert_near(100.0 * found.worst.angle.degrees(), 100.0 * off_deg);
@@ -337,7 +337,8 @@ fn a_unit_that_leaves_refraction_out_is_told_apart_and_still_takes_the_pass() {
         panic!("{found:#?}")
     };
     assert_eq!(*deviation, found.worst.angle);
-    // A beam narrower than that loses the ends of the pass, which no setting of the unit saves.
+    // A beam narrower than the refraction loses the ends of the pass, which no setting of the unit
+    // prevents.
     let narrow = Ability { half_beam: Angle::from_degrees(0.05), ..judge.ability() };
     let narrow = Judge::new(judge.pass().clone(), narrow).unwrap();
     assert!(narrow.supervise(&right(), true).is_within_beam);

@@ -1,30 +1,31 @@
-//! Interruptions of a pass from outside: a lost link, a STOP of the operator or of Azel, a track that was
-//! not commanded.
+//! External interruptions of a pass: a lost link, a STOP by the operator or by Azel, or a track
+//! without a command.
 
 use jiff::Timestamp;
 
 use super::{APART_S, LossCause};
 use crate::astro::time::{add_seconds, seconds_between};
 
-/// An antenna is off its satellite as late as this after its STOP, seconds.
+/// Max time after its STOP in which an antenna leaves its satellite, seconds.
 const MOVES_ON_S: f64 = 3.0;
 
-/// When the link to the unit of a pass was lost, when and why its antenna was stopped, and when its track
-/// was commanded.
+/// Link losses of a pass, stops of its antenna with their causes, and times with the track
+/// commanded.
 #[derive(Debug, Clone, Default)]
 pub struct Breaks {
     lost: Vec<(Timestamp, Timestamp)>,
-    /// When it was looked at last.
+    /// `true` if the link was lost at the last note.
     is_lost: bool,
     stops: Vec<(Timestamp, LossCause)>,
-    /// `None` as long as nobody has noted it: then all of the pass counts as commanded.
+    /// Times with the track commanded; `None` without a note: then the whole pass counts as
+    /// commanded.
     commanded: Option<Vec<(Timestamp, Timestamp)>>,
     is_commanded: bool,
 }
 
 impl Breaks {
-    /// Takes the state of the link at `now`, again and again: since when it is lost, which may be
-    /// some seconds before that was noticed.
+    /// Notes the state of the link at `now`; called repeatedly. `lost_since` may be some seconds
+    /// before the detection of the loss.
     pub fn note_link(&mut self, now: Timestamp, lost_since: Option<Timestamp>) {
         match (self.lost.last_mut().filter(|_| self.is_lost), lost_since) {
             (Some((_, end)), _) => *end = now,
@@ -34,13 +35,13 @@ impl Breaks {
         self.is_lost = lost_since.is_some();
     }
 
-    /// Takes a STOP that was pressed at `now`, or that Azel sent. `loss_cause`: the cause of what is lost from
+    /// Notes a STOP at `now` by the operator or by Azel. `loss_cause`: cause of all losses from
     /// then on.
     pub fn note_stop(&mut self, now: Timestamp, loss_cause: LossCause) {
         self.stops.push((now, loss_cause));
     }
 
-    /// Notes at `now`, again and again, if the antenna has the command to track this pass.
+    /// Notes at `now` whether the antenna has the command to track this pass; called repeatedly.
     pub fn note_commanded(&mut self, now: Timestamp, is_commanded: bool) {
         let spans = self.commanded.get_or_insert_default();
         match spans.last_mut().filter(|_| is_commanded && self.is_commanded) {
@@ -57,8 +58,9 @@ impl Breaks {
         self.commanded.as_ref().is_none_or(|spans| spans.iter().any(holds))
     }
 
-    /// The stretches between two times in which the track was commanded. Interruptions as short as
-    /// the time between two positions do not count: a unit ends its window at a whole second.
+    /// Returns the stretches between two times in which the track was commanded. Interruptions as
+    /// short as the time between two positions do not count, because a unit ends its window at a
+    /// whole second.
     pub(super) fn commanded(
         &self,
         start: Timestamp,
@@ -89,7 +91,7 @@ impl Breaks {
         self.lost_link(add_seconds(time, -APART_S), add_seconds(time, APART_S))
     }
 
-    /// From when on a stretch is put down to a STOP, and why there was one.
+    /// Returns the time from which a STOP explains a stretch, and the cause of that STOP.
     pub(super) fn stopped(
         &self,
         start: Timestamp,

@@ -1,6 +1,6 @@
-//! Finds what explains the pointing error of one pass or of several. Each cause is fitted alone,
-//! and where none suffices with a second one, by least squares on the sphere. A cause is named
-//! only if the antenna would have kept the satellite in its beam without it.
+//! Explanations of the pointing error of one pass or of several. Azel fits each cause alone by
+//! least squares on the sphere, and with a second cause if no single one suffices. Azel names a
+//! cause only if the antenna would have kept the satellite in its beam without it.
 
 mod drives;
 mod evidence;
@@ -17,45 +17,45 @@ pub use self::evidence::{Evidence, PathSource};
 use self::{evidence::EvidencePoint, fit::Family};
 use crate::{astro::Angle, orbit::Propagator};
 
-/// Fewer positions explain nothing.
+/// Min number of positions for an explanation.
 const MIN_POSITIONS: usize = 20;
-/// A cause explains at least this share of the mean square error that is not noise.
+/// Min share of the mean square error without noise that a cause must explain.
 const MIN_SHARE: f64 = 0.85;
-/// Maximum share of the mean square error, noise included, that a cause leaves.
+/// Max share of the mean square error, noise included, that a cause may leave.
 const MAX_LEFT: f64 = 0.5;
-/// Without its cause, no more than this share of the positions would have been out of the beam.
+/// Max share of the positions that would be outside the beam without the cause.
 const MAX_OUTSIDE: f64 = 0.05;
-/// Two causes whose sums of squares differ by less than this many times the variance of the noise
-/// are not told apart: one in a hundred by chance (chi-squared, two degrees of freedom).
+/// Max difference between the sums of squares of two indistinguishable causes, in variances of the
+/// noise. One in a hundred exceeds it by chance (chi-squared, two degrees of freedom).
 const ALIKE: f64 = 9.2;
-/// An improvement of the sum of squares by less than this many times the variance of the noise may
-/// be chance, since the best of several causes is taken.
+/// Min improvement of the sum of squares that is not chance, in variances of the noise. The value
+/// is high because Azel takes the best of several causes.
 const SURE: f64 = 30.0;
-/// A second cause is named where it makes what is left smaller by this share of the error.
+/// Min reduction of the remaining error by a second cause, as a share of the error.
 const MIN_SECOND: f64 = 0.03;
-/// A known difference is named where it makes at least this share of the mean square error.
+/// Min share of the mean square error for naming a known difference.
 const MIN_KNOWN: f64 = 0.01;
-/// More causes that the positions do not tell apart help nobody.
+/// Max number of indistinguishable causes in an explanation.
 const MAX_CANDIDATES: usize = 3;
 
-/// An axis of a mount.
+/// Axis of a mount, by the kind of mount.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Axis {
     Azimuth,
     Elevation,
-    /// The lower axis of an X/Y mount.
+    /// Lower axis of an X/Y mount.
     X,
-    /// Its upper axis.
+    /// Upper axis of an X/Y mount.
     Y,
 }
 
-/// A cause with its size.
+/// Cause of a pointing error, with its size.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", tag = "cause")]
 pub enum Cause {
-    /// The antenna points where the satellite is at another time: the clock of the unit is late,
-    /// or what is sent takes so long. Negative: early.
+    /// Late antenna: it points at an earlier place of the satellite, because of a late clock of the
+    /// unit or slow transmission. Negative: early.
     Late {
         late_s: f64,
     },
@@ -66,36 +66,36 @@ pub enum Cause {
     ElevationOffset {
         offset_deg: f64,
     },
-    /// The azimuth axis leans to the north and to the east.
+    /// Lean of the azimuth axis to the north and to the east.
     Tilt {
         north_deg: f64,
         east_deg: f64,
     },
-    /// The azimuth grows by so much more for each degree that it turns, per thousand.
+    /// Azimuth scale error, parts per thousand.
     AzimuthScale {
         per_mille: f64,
     },
     ElevationScale {
         per_mille: f64,
     },
-    /// The unit computes its track for a place this far from the site.
+    /// Other place: the unit computes its track for a place this far from the site.
     OtherSite {
         north_km: f64,
         east_km: f64,
     },
-    /// The unit leaves out the refraction by which the satellite appears higher.
+    /// Missing refraction: the unit ignores that the satellite appears higher.
     Refraction,
-    /// The antenna follows these elements.
+    /// Other elements that the antenna follows.
     OtherElements {
         epoch: Timestamp,
     },
-    /// An axis turns no faster; `None`: neither of the two does.
+    /// Max rate of a slow axis; `axis` is `None` for both.
     SlowDrives {
         rate_deg_s: f64,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         axis: Option<Axis>,
     },
-    /// An axis stands since then; `None`: both stand.
+    /// Axis that stands since `start`; `axis` is `None` for both.
     Stuck {
         #[serde(rename = "since")]
         start: Timestamp,
@@ -115,12 +115,12 @@ impl Cause {
             Self::Late { late_s } => late_s.abs() <= 60.0,
             Self::AzimuthOffset { offset_deg } => offset_deg.abs() <= 180.0,
             Self::ElevationOffset { offset_deg } => offset_deg.abs() <= 90.0,
-            // More can be seen from afar.
+            // A larger tilt is visible from afar.
             Self::Tilt { north_deg, east_deg } => north_deg.hypot(east_deg) <= 10.0,
             Self::AzimuthScale { per_mille } | Self::ElevationScale { per_mille } => {
                 per_mille.abs() <= 100.0
             }
-            // Further away the satellite rises at another time.
+            // At a larger distance, the satellite rises at another time.
             Self::OtherSite { north_km, east_km } => north_km.hypot(east_km) <= 500.0,
             Self::Refraction
             | Self::OtherElements { .. }
@@ -130,42 +130,43 @@ impl Cause {
     }
 }
 
-/// How well a cause explains the error.
+/// Explanation of the error by a cause.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Explanation {
     #[serde(flatten)]
     pub cause: Cause,
-    /// The cause that acts together with it; `None` if it acts alone.
+    /// Second cause that acts together with the first; `None` if the first acts alone.
     #[serde(rename = "with", default, skip_serializing_if = "Option::is_none")]
     pub partner: Option<Cause>,
-    /// Root mean square of what is left, degrees.
+    /// Root mean square of the remaining error, degrees.
     pub left_deg: f64,
-    /// Share of the mean square that it explains of what is not noise, 0 to 1.
+    /// Explained share of the mean square error without noise, 0 to 1.
     pub share: f64,
 }
 
 impl Explanation {
-    /// Its one cause or two.
+    /// Yields the cause and its partner, if any.
     pub fn causes(&self) -> impl Iterator<Item = &Cause> {
         std::iter::once(&self.cause).chain(&self.partner)
     }
 }
 
-/// The causes of an error while a pass goes on.
+/// Causes of an error during a pass.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Explained {
-    /// One cause, or up to three that the positions so far do not tell apart; the best first.
+    /// Best cause, or up to three causes that the positions so far cannot distinguish, the best
+    /// first.
     pub causes: Vec<Explanation>,
-    /// The error, root mean square, degrees.
+    /// Error, root mean square, degrees.
     pub error_deg: f64,
 }
 
-/// Share of an error that the explained one has to be, to be named as its cause.
+/// Min size of the explained error, as a share of a new error with the same cause.
 const COMPARABLE_SHARE: f64 = 0.7;
 
 impl Explained {
-    /// Returns `true` if this explains an error of `deviation`. What explained the smaller error of the time
-    /// before need not, but the error of an axis that stands grows.
+    /// Returns `true` if this explanation covers an error of `deviation`. The explanation of a
+    /// smaller earlier error may not apply, but the error of a standing axis grows.
     pub fn can_make(&self, deviation: Angle) -> bool {
         let stands = |explanation: &Explanation| {
             explanation.causes().any(|cause| matches!(cause, Cause::Stuck { .. }))
@@ -174,7 +175,7 @@ impl Explained {
     }
 }
 
-/// One or two causes with the sizes that fit best.
+/// One or two causes with their best sizes.
 #[derive(Debug, Clone, Copy)]
 struct FoundCause {
     cause: Cause,
@@ -182,15 +183,15 @@ struct FoundCause {
     fit: CauseFit,
 }
 
-/// The error that a model of the antenna leaves.
+/// Remaining error of a model of the antenna.
 #[derive(Debug, Clone, Copy)]
 struct CauseFit {
-    /// Sum of the squares that are left.
+    /// Sum of the remaining squares.
     left: f64,
-    /// Variance of what is left of one of the two angles of a position, times the number of
-    /// positions that say the same because noise lasts.
+    /// Variance of the remaining error of one of the two angles of a position, times the number of
+    /// correlated positions.
     variance: f64,
-    /// Share of the positions that it leaves out of the beam.
+    /// Share of the positions that remain outside the beam.
     outside: f64,
 }
 
@@ -201,10 +202,10 @@ impl FoundCause {
 }
 
 impl Evidence<'_> {
-    /// The cause of the error, or up to three that these positions do not tell apart, the best
-    /// first; empty where none explains it. Two causes together are among them only where they
-    /// explain clearly more than any single one. `others`: other elements of the satellite with
-    /// their epochs.
+    /// Returns the cause of the error, or up to three causes that these positions cannot
+    /// distinguish, the best first; empty without an explanation. Includes two causes together only
+    /// if they explain clearly more than any single one. `others`: other elements of the satellite
+    /// with their epochs.
     pub fn explanations(&self, others: &[(Timestamp, Propagator)]) -> Vec<Explanation> {
         let whole = self.fit_of(|point| Some(point.satellite));
         if self.points().count() < MIN_POSITIONS || whole.left <= 0.0 {
@@ -245,7 +246,7 @@ impl Evidence<'_> {
         self.shown(&named.collect::<Vec<_>>(), whole.left)
     }
 
-    /// The causes of an error of at least `min_deg`, root mean square. `others` as for
+    /// Returns the causes of an error of at least `min_deg`, root mean square. `others` as for
     /// [`Self::explanations`].
     pub fn explained(&self, min_deg: f64, others: &[(Timestamp, Propagator)]) -> Option<Explained> {
         let whole = self.fit_of(|point| Some(point.satellite));
@@ -257,8 +258,8 @@ impl Evidence<'_> {
         (!causes.is_empty()).then_some(Explained { causes, error_deg })
     }
 
-    /// The antenna would have kept the satellite in its beam but for what `fit` takes away, which
-    /// is more than chance.
+    /// Returns `true` if the antenna would have kept the satellite in its beam without the error
+    /// that `fit` removes. That error must be more than chance.
     fn is_explained(&self, fit: CauseFit, whole: f64) -> bool {
         whole - fit.left > SURE * fit.variance
             && self.share(fit.left, whole) >= MIN_SHARE
@@ -266,12 +267,12 @@ impl Evidence<'_> {
             && fit.outside <= MAX_OUTSIDE
     }
 
-    /// Share of the error that is not noise.
+    /// Returns the explained share of the error without noise.
     fn share(&self, left: f64, whole: f64) -> f64 {
         (whole - left) / (whole - self.noise().min(left))
     }
 
-    /// The best sizes of each cause that may act alone.
+    /// Returns the best sizes of each cause that may act alone.
     fn singles<'b>(&self, others: &'b [(Timestamp, Propagator)]) -> Vec<(Family<'b>, FoundCause)> {
         let is_open = |family: &Family<'_>| {
             let is_of_unit = matches!(family, Family::Site | Family::Elements(_));
@@ -285,11 +286,11 @@ impl Evidence<'_> {
         open.map(|family| (family, self.fitted(family, None))).collect()
     }
 
-    /// Pairs of causes each of which does its part. `singles`: what each explains, the best first.
+    /// Returns pairs of causes that are both necessary. `singles`: explanation by each single
+    /// cause, the best first.
     fn pairs(&self, singles: &[(Family<'_>, FoundCause)], whole: f64) -> Vec<FoundCause> {
         let is_set = |family: &Family<'_>| matches!(family, Family::Elements(_));
-        // An antenna follows one set of elements, so only the set that explains most alone is
-        // paired.
+        // An antenna follows one set of elements, so pair only the set that explains most alone.
         let set = singles.iter().find(|(family, _)| is_set(family));
         let rest = singles.iter().filter(|(family, _)| !is_set(family));
         let singles: Vec<&(Family<'_>, FoundCause)> = set.into_iter().chain(rest).collect();
@@ -309,7 +310,8 @@ impl Evidence<'_> {
         pairs.filter_map(fitted_pair).collect()
     }
 
-    /// `found` with what is known of the unit, where that makes a part of the error.
+    /// Returns `found` with the known difference of the unit added, if it makes a part of the
+    /// error.
     fn beside_known(&self, found: FoundCause, whole: f64) -> FoundCause {
         match (self.known_cause(found.fit, whole), found.cause) {
             (None, _) => found,
@@ -331,7 +333,7 @@ impl Evidence<'_> {
                 left_deg: self.rms_deg(fit.left),
                 share: self.share(fit.left, whole),
             };
-            // Only the best of several other sets counts.
+            // Show only the best of several other sets.
             let is_same = |shown: &Explanation| {
                 shown.cause.is_same_kind(&cause)
                     && matches!((shown.partner, partner), (None, None))

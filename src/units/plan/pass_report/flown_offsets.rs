@@ -1,4 +1,4 @@
-//! The offsets with which a pass was tracked.
+//! Offsets during a tracked pass.
 
 use glam::DQuat;
 use jiff::Timestamp;
@@ -11,20 +11,20 @@ use crate::{
     orbit::Propagator,
 };
 
-/// Offsets of a pass, each with the time from which it was on, the oldest first.
+/// Offsets of a pass, each with its start time, the oldest first.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct FlownOffsets(Vec<(Timestamp, TrackOffsets)>);
 
 impl FlownOffsets {
-    /// Notes the offsets that are on at `now`.
+    /// Records the current offsets at `now`.
     pub fn note(&mut self, now: Timestamp, offsets: TrackOffsets) {
         if self.offsets_at(now) != offsets {
             self.0.push((now, offsets));
         }
     }
 
-    /// Each change.
+    /// Returns the changes of the offsets, each with its start time, the oldest first.
     pub fn changes(&self) -> &[(Timestamp, TrackOffsets)] {
         &self.0
     }
@@ -34,8 +34,8 @@ impl FlownOffsets {
         before.last().map_or(TrackOffsets::NONE, |(_, offsets)| *offsets)
     }
 
-    /// A position as it would have been measured without offsets: as far from the satellite as it
-    /// was from where the antenna should have pointed, and to the same side.
+    /// Returns the position that the antenna would have measured without offsets. Its distance and
+    /// direction from the satellite equal those between the measured and the desired direction.
     #[must_use]
     pub fn taken_off(
         &self,
@@ -47,7 +47,7 @@ impl FlownOffsets {
         MeasuredPosition { pointing: pointing.unwrap_or(flown.pointing), ..flown }
     }
 
-    /// `None` where there is nothing to take off.
+    /// Returns the corrected pointing; `None` without offsets to remove.
     fn turned_back(
         &self,
         propagator: &Propagator,

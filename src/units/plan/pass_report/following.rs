@@ -1,24 +1,25 @@
-//! When an antenna moved along with its satellite, on it or beside it.
+//! Times at which an antenna moved along with its satellite, on it or beside it.
 
 use jiff::Timestamp;
 
 use super::{TrackPoint, TrackedPass};
 use crate::astro::time::seconds_between;
 
-/// An antenna that moves along with its satellite differs from its motion by no more than this share
-/// of it.
+/// Max difference between the motions of an antenna and its satellite while it moves along, as a
+/// share of the motion.
 const SHARE: f64 = 0.25;
-/// Least motion that counts, in half beamwidths: below it, noise would decide.
+/// Min motion that counts, in half beamwidths: noise dominates a smaller motion.
 const MIN_MOTION: f64 = 0.2;
-/// Way over which an antenna moves along, at least half the beamwidth, degrees: an axis that turns
-/// evenly has the rate of its satellite for a moment only.
+/// Min path over which an antenna must move along, at least half the beamwidth, degrees. An axis
+/// with a constant rate matches the rate of its satellite only for a moment.
 const WAY_DEG: f64 = 5.0;
-/// Longest time in which the motions of a slow satellite are compared, seconds.
+/// Max time over which Azel compares the motions of a slow satellite, seconds.
 const MAX_S: f64 = 120.0;
 
-/// When an antenna reached its satellite, and when it left it. Both are `None` for an antenna that never
-/// did. An antenna that moves along beside its satellite has reached it: its error is one of pointing.
-/// One that did so from the first position on, or to the last, has no such time of its own.
+/// Times at which an antenna reached and left its satellite; both are `None` for an antenna that
+/// never did. An antenna that moves along beside its satellite has reached it: its error is a
+/// pointing error. An antenna that follows from the first position, or to the last, gets the min or
+/// max time.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Following {
     pub(super) start: Option<Timestamp>,
@@ -26,7 +27,7 @@ pub(super) struct Following {
 }
 
 impl TrackedPass<'_> {
-    /// How the antenna followed at `points`, in order.
+    /// Returns the times of following for `points`, in order.
     pub(super) fn following(&self, points: &[&TrackPoint]) -> Following {
         let backwards: Vec<&TrackPoint> = points.iter().rev().copied().collect();
         Following {
@@ -35,11 +36,11 @@ impl TrackedPass<'_> {
         }
     }
 
-    /// The time of the first of `points` from which on the antenna follows; `always` if that is the
-    /// first of all.
+    /// Returns the time of the first of `points` at which the antenna follows; `always` if that is
+    /// the first of all points.
     fn first_on_track(&self, points: &[&TrackPoint], always: Timestamp) -> Option<Timestamp> {
         let half_deg = self.limits.half_beam.degrees();
-        // The short way tells the moment, and the long one that it was no coincidence.
+        // The short path determines the time, and the long path excludes a coincidence.
         let mut ways = [(half_deg, 0), (half_deg.max(WAY_DEG), 0)];
         let on_track = points.iter().enumerate().find(|(index, point)| {
             self.is_in_beam(point)
@@ -61,7 +62,7 @@ impl TrackedPass<'_> {
         on_track.map(|(index, point)| if index == 0 { always } else { point.time })
     }
 
-    /// Returns `true` if antenna and satellite made the same way between two positions.
+    /// Returns `true` if antenna and satellite moved equally between two positions.
     fn moves_along(&self, one: &TrackPoint, other: &TrackPoint) -> bool {
         let min_deg = MIN_MOTION * self.limits.half_beam.degrees();
         let moved_deg = moved_deg(one, other).max(min_deg);
@@ -74,7 +75,7 @@ impl TrackedPass<'_> {
     }
 }
 
-/// The way of the satellite between two positions, degrees.
+/// Returns the motion of the satellite between two positions, degrees.
 fn moved_deg(one: &TrackPoint, other: &TrackPoint) -> f64 {
     one.satellite.separation(other.satellite).degrees()
 }

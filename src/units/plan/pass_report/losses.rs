@@ -13,7 +13,7 @@ use crate::{
     plan::trackability::{Loss, Trackability},
 };
 
-/// A stretch of a pass that was lost.
+/// Part of a pass outside the beam or without positions.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct LostStretch {
     #[serde(rename = "from")]
@@ -28,8 +28,9 @@ impl LostStretch {
         seconds_between(self.start, self.end)
     }
 
-    /// Returns `true` if the error in it is one of pointing or of the drives. An antenna that is on
-    /// its way to the end of what counts may have drives that never bring it there.
+    /// Returns `true` if the error in this stretch comes from pointing or from the drives. If an
+    /// antenna is still on its way at the end of the counted part, its drives may never reach the
+    /// satellite.
     pub(super) fn is_judged(&self, end: Timestamp) -> bool {
         match self.cause {
             LossCause::OutsideBeam | LossCause::EarlyEnd => true,
@@ -51,47 +52,48 @@ impl LostStretch {
     }
 }
 
-/// Why a stretch was lost, as far as positions and mount tell.
+/// Cause of a lost stretch, as far as positions and mount show it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LossCause {
-    /// No positions came in.
+    /// Missing positions.
     NotMeasured,
-    /// The link to the unit was lost.
+    /// Lost link to the unit, with no positions.
     LinkLost,
-    /// The program ended: nothing is known of what came after.
+    /// End of the program; later events are unknown.
     ProgramEnded,
-    /// The mount cannot point there.
+    /// Satellite beyond the reach of the mount.
     OutOfReach,
-    /// An axis would have had to turn faster than it can near a keyhole of its mount.
+    /// Keyhole of the mount: near it, an axis would have had to turn faster than possible.
     Keyhole,
-    /// An axis would have had to turn faster than it can: overhead, or on the way back to what it reaches.
+    /// Rate limit: an axis would have had to turn faster than possible, overhead or on the way back
+    /// into its reach.
     RateOfMount,
-    /// The axis had to slew a whole turn.
+    /// Slew of the axis by a whole turn.
     Slew,
-    /// The antenna was still on its way to the satellite.
+    /// Late arrival of the antenna at the satellite.
     LateStart,
-    /// The antenna followed the satellite no more.
+    /// Early end: the antenna no longer followed the satellite.
     EarlyEnd,
-    /// STOP had been pressed.
+    /// STOP by the operator.
     Stopped,
-    /// An axis had not turned as commanded, and Azel had stopped the antenna.
+    /// STOP by Azel after a motion of an axis without effect.
     NoEffect,
-    /// The antenna had stayed off its target, and Azel had given up the pass.
+    /// End of the pass by Azel after the antenna had stayed off its target.
     GivenUp,
-    /// Somebody else had moved the antenna.
+    /// Motion of the antenna by somebody else.
     ForeignHands,
-    /// Azel had stopped the antenna at a barrier.
+    /// STOP by Azel at a barrier.
     Forbidden,
-    /// The antenna had no command to track this pass.
+    /// Missing command to track this pass.
     NotCommanded,
-    /// The antenna followed the satellite beyond half the beamwidth: a pointing error.
+    /// Pointing error: the antenna followed the satellite beyond half the beamwidth.
     #[serde(alias = "not_explained")]
     OutsideBeam,
 }
 
 impl LossCause {
-    /// Returns `true` for what the mount had to lose, if it was no more than that.
+    /// Returns `true` for a loss that the mount explains, if the loss was no larger than necessary.
     pub fn is_of_mount(self) -> bool {
         match self {
             Self::OutOfReach | Self::Keyhole | Self::RateOfMount | Self::Slew => true,
@@ -110,14 +112,14 @@ impl LossCause {
         }
     }
 
-    /// Returns `true` where nothing is known of the antenna.
+    /// Returns `true` if nothing is known about the antenna.
     pub(super) fn is_unknown(self) -> bool {
         matches!(self, Self::NotMeasured | Self::LinkLost | Self::ProgramEnded)
     }
 }
 
 impl TrackedPass<'_> {
-    /// The stretches that were lost, with the positions that tell why.
+    /// Returns the lost stretches; the positions in `points` show their causes.
     pub(super) fn losses(&self, stretches: &[Stretch], points: &[TrackPoint]) -> Vec<LostStretch> {
         let end = self.ended.unwrap_or(self.end);
         let commanded = self.breaks.commanded(self.start, end).into_iter();
@@ -158,7 +160,7 @@ impl TrackedPass<'_> {
         self.in_parts(start, end, loss_cause)
     }
 
-    /// A stretch in which the antenna had no command to track this pass.
+    /// Returns the losses of a stretch in which the antenna had no command to track this pass.
     fn not_commanded(&self, stretch: &Stretch) -> Vec<LostStretch> {
         let Stretch { start, end, .. } = *stretch;
         if let Some((stop, loss_cause)) = self.breaks.stopped(start, end) {
@@ -166,7 +168,7 @@ impl TrackedPass<'_> {
             lost.extend(self.in_parts(stop, end, loss_cause));
             return lost;
         }
-        // A track that ended with its link goes on only once the operator agrees.
+        // A track that ended with its link continues only with the operator's permission.
         let reason = if self.breaks.is_link_lost_at(start) {
             LossCause::LinkLost
         } else {
@@ -175,7 +177,7 @@ impl TrackedPass<'_> {
         self.in_parts(start, end, reason)
     }
 
-    /// A stretch beyond half the beamwidth.
+    /// Returns the losses of a stretch beyond half the beamwidth.
     fn outside(&self, stretch: &Stretch, following: Following) -> Vec<LostStretch> {
         let Stretch { start, end, .. } = *stretch;
         let stop = self.breaks.stopped(start, end);
@@ -196,8 +198,8 @@ impl TrackedPass<'_> {
         lost
     }
 
-    /// The loss of the mount between two times, if that is where it had to lose something, and no
-    /// more than it had to.
+    /// Returns the loss of the mount between two times, if a loss was necessary there and the
+    /// actual loss is no larger.
     fn loss_of_mount(&self, start: Timestamp, end: Timestamp) -> Option<LossCause> {
         let Trackability::Loses { loss, start: first, end: last, .. } = self.trackability else {
             return None;
@@ -215,7 +217,7 @@ impl TrackedPass<'_> {
             {
                 Some(LossCause::OutOfReach)
             }
-            // An axis is too slow, or on its way back to what it reaches.
+            // An axis is too slow, or on its way back into its reach.
             Loss::BeyondAzimuth(_) | Loss::OutOfReach
                 if self.is_reached() || !self.is_in_reach(add_seconds(start, 1.0)) =>
             {
@@ -225,20 +227,21 @@ impl TrackedPass<'_> {
         }
     }
 
-    /// Returns `true` if all of the pass is within reach of the mount.
+    /// Returns `true` if the whole pass is within reach of the mount.
     fn is_reached(&self) -> bool {
         self.reached_s(self.start, self.end) >= seconds_between(self.start, self.end)
     }
 
-    /// Seconds in which the satellite was within reach of the mount.
+    /// Returns the seconds in which the satellite was within reach of the mount.
     fn reached_s(&self, start: Timestamp, end: Timestamp) -> f64 {
         let seconds = 0..seconds_between(start, end).ceil().max(0.0) as u32;
         let time = |second: &u32| add_seconds(start, f64::from(*second));
         seconds.filter(|second| self.is_in_reach(time(second))).count() as f64
     }
 
-    /// A stretch that is lost for this reason, but where the satellite was out of reach of the mount:
-    /// that is lost whatever was measured, since an axis at its limit may tell no angle.
+    /// Returns a lost stretch with this cause, split where the satellite was out of reach of the
+    /// mount. That part is lost regardless of the measurements, because an axis at its limit may
+    /// report no angle.
     fn in_parts(
         &self,
         start: Timestamp,

@@ -1,11 +1,11 @@
-//! The state of a pass, stretch by stretch.
+//! State of a pass, stretch by stretch.
 
 use jiff::Timestamp;
 
 use super::{APART_S, TrackPoint, TrackedPass};
 use crate::astro::time::{add_seconds, seconds_between};
 
-/// A stretch of a pass.
+/// Part of a pass with a constant state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stretch {
     pub(super) start: Timestamp,
@@ -15,7 +15,7 @@ pub(super) struct Stretch {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum StretchState {
-    /// Within half the beamwidth.
+    /// Positions within half the beamwidth.
     InBeam,
     Outside,
     NotMeasured,
@@ -29,8 +29,8 @@ impl Stretch {
 }
 
 impl TrackedPass<'_> {
-    /// The stretches of the pass, in order and without gaps, up to where the program ended. Between
-    /// two positions the error is taken to change evenly.
+    /// Returns the stretches of the pass, in order and without gaps, up to the end of the program.
+    /// Assumes that the error changes evenly between two positions.
     pub(super) fn stretches(&self, points: &[TrackPoint]) -> Vec<Stretch> {
         let end = self.ended.unwrap_or(self.end);
         let (mut found, mut time) = (Stretches(Vec::new()), self.start);
@@ -43,7 +43,7 @@ impl TrackedPass<'_> {
         found.0
     }
 
-    /// Adds what was measured from `start` until `end`.
+    /// Adds the measurements from `start` until `end`.
     fn measured(
         &self,
         start: Timestamp,
@@ -59,7 +59,7 @@ impl TrackedPass<'_> {
         let Some(mut before) = points.next() else {
             return add(start, end, StretchState::NotMeasured);
         };
-        // Before the first and after the last position the pass is as it was measured there.
+        // Before the first and after the last position, the nearest measurement counts.
         let is_near = |a: Timestamp, b: Timestamp| seconds_between(a, b) <= APART_S;
         let at_first = is_near(start, before.time);
         add(
@@ -88,7 +88,7 @@ impl TrackedPass<'_> {
         if self.is_in_beam(point) { StretchState::InBeam } else { StretchState::Outside }
     }
 
-    /// When the satellite crosses half the beamwidth between two positions.
+    /// Returns the time at which the satellite crosses half the beamwidth between two positions.
     fn crossing(&self, before: &TrackPoint, after: &TrackPoint) -> Timestamp {
         let half_deg = self.limits.half_beam.degrees();
         let change_deg = after.error.off_deg - before.error.off_deg;

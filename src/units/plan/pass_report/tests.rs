@@ -1,4 +1,4 @@
-//! Reports of passes whose errors are known.
+//! Tests of reports of passes with known errors.
 
 use jiff::{SignedDuration, Timestamp};
 
@@ -27,7 +27,7 @@ struct Scene {
 }
 
 impl Scene {
-    /// A pass of the ISS that stands well above the horizon.
+    /// Returns a pass of the ISS with a high elevation.
     fn new() -> Self {
         let propagator = Propagator::new(bundled().unwrap().get(ISS).unwrap()).unwrap();
         let site = Station::default().site;
@@ -69,7 +69,7 @@ impl Scene {
         add_seconds(self.pass.aos.time, second)
     }
 
-    /// Directions of an antenna beside its satellite by so many degrees of azimuth.
+    /// Returns the direction of an antenna with an azimuth error of `azimuth_deg`, degrees.
     fn shifted(&self, time: Timestamp, azimuth_deg: f64) -> AzEl {
         let direction = self.direction(time);
         AzEl { azimuth: direction.azimuth + Angle::from_degrees(azimuth_deg), ..direction }
@@ -79,8 +79,8 @@ impl Scene {
         self.propagator.look_from(self.site, time).unwrap().direction
     }
 
-    /// Positions all through the pass: at each second of it, the direction at which the antenna
-    /// points, if it tells one.
+    /// Returns positions throughout the pass. `points` returns the direction of the antenna at each
+    /// second, or `None`.
     fn flown(&self, points: impl Fn(f64, Timestamp) -> Option<AzEl>) -> Vec<MeasuredPosition> {
         let (start, end) = (self.pass.aos.time, self.pass.los.time);
         let count = (seconds_between(start, end) / STEP_S) as u32;
@@ -130,7 +130,7 @@ fn a_late_antenna_is_behind_along_the_way_and_not_across_it() {
     assert!(rms.across_deg < 0.01 * rms.along_deg, "{rms:?}");
     let worst = report.worst.unwrap();
     assert!(worst.error.along_deg < 0.0, "{worst:?}");
-    // A satellite is fastest where it is nearest.
+    // A satellite is fastest at its nearest point.
     assert!(is_close(seconds_between(worst.time, scene.pass.tca.time), 0.0, 5.0));
 }
 
@@ -190,11 +190,11 @@ fn what_the_mount_had_to_lose_is_no_fault_and_no_excuse_for_more() {
     assert_eq!(causes(&elsewhere), [LossCause::OutsideBeam], "the mount loses nothing there");
 }
 
-/// An axis at its limit tells no angle, so that there is no position beyond it.
+/// An axis at its limit reports no angle, so no position lies beyond it.
 #[test]
 fn what_is_out_of_reach_is_no_fault_whatever_was_measured_there() {
     let scene = Scene::new();
-    // Until TCA the satellite is on one side, and the mount ends somewhat further.
+    // Until TCA the satellite is on one side, and the mount ends slightly further.
     let middle_s = seconds_between(scene.pass.aos.time, scene.pass.tca.time) + 10.0;
     let [begin, end] = [0.0, middle_s]
         .map(|second| scene.direction(add_seconds(scene.pass.aos.time, second)).azimuth);
@@ -230,7 +230,7 @@ fn what_is_out_of_reach_is_no_fault_whatever_was_measured_there() {
         let worst = report.worst.unwrap().error.off_deg;
         assert!(worst < 0.1, "{worst}: what is out of reach says nothing of the pointing");
     }
-    // The mount does not explain a pointing error that goes on to the end of the reach.
+    // The mount does not explain a pointing error that continues to the end of the reach.
     let wanders = tracked.report(&scene.flown(|second, utc| match second {
         second if second < middle_s - 60.0 => Some(scene.direction(utc)),
         second if second < middle_s => {
@@ -242,7 +242,7 @@ fn what_is_out_of_reach_is_no_fault_whatever_was_measured_there() {
     }));
     assert_eq!(wanders.verdict, PassVerdict::Poor);
     assert_eq!(causes(&wanders), [LossCause::OutsideBeam, LossCause::OutOfReach]);
-    // A position that is missing within the reach is a loss as ever.
+    // A missing position within the reach still counts as a loss.
     let idle = tracked.report(
         &scene.flown(|second, time| (second < middle_s / 2.0).then(|| scene.direction(time))),
     );
@@ -294,7 +294,7 @@ fn what_came_after_the_end_of_the_program_is_not_known_and_nobody_s_fault() {
 fn what_comes_late_leaves_early_or_wanders_is_told_apart() {
     let scene = Scene::new();
     let end_s = scene.duration_s();
-    // It turns by 5 degrees a second, and is there after 20 s.
+    // The antenna turns by 5 degrees a second, and arrives after 20 s.
     let late =
         scene.report(|second, time| Some(scene.shifted(time, -5.0 * (20.0 - second).max(0.0))));
     assert_eq!(causes(&late), [LossCause::LateStart]);
@@ -329,7 +329,7 @@ fn an_antenna_beside_its_satellite_has_a_pointing_error_and_is_not_late() {
         let pass_report = scene.report(|_, time| Some(scene.shifted(time, azimuth_deg)));
         assert_eq!(causes(&pass_report), [LossCause::OutsideBeam], "{azimuth_deg}");
         assert!(is_close(pass_report.losses[0].seconds(), scene.duration_s(), 1e-3));
-        // With the resolution of a position sensor.
+        // Repeat with the resolution of a position sensor.
         let coarse = scene.report(|_, utc| {
             let AzEl { azimuth, elevation } = scene.shifted(utc, azimuth_deg);
             let round = |angle: Angle| Angle::from_degrees((angle.degrees() * 10.0).round() / 10.0);
@@ -337,7 +337,7 @@ fn an_antenna_beside_its_satellite_has_a_pointing_error_and_is_not_late() {
         });
         assert_eq!(causes(&coarse), [LossCause::OutsideBeam], "{azimuth_deg}");
     }
-    // It comes from afar, and stays beside.
+    // The antenna approaches from afar, and stays beside the satellite.
     let way_deg = |second: f64| 4.0 + 3.0 * (30.0 - second).max(0.0);
     let late = scene.report(|second, time| Some(scene.shifted(time, way_deg(second))));
     assert_eq!(causes(&late), [LossCause::LateStart, LossCause::OutsideBeam]);
@@ -351,7 +351,7 @@ fn an_antenna_that_never_reached_its_satellite_was_late_all_the_time() {
     let stands = scene.report(|_, _| Some(opposite));
     assert_eq!((stands.verdict, stands.in_beam_s), (PassVerdict::Poor, 0.0));
     assert_eq!(causes(&stands), [LossCause::LateStart]);
-    // It turns away from where the satellite goes to.
+    // The antenna turns away from the direction of the satellite's motion.
     let [before, after] = [0.0, 60.0].map(|second| scene.direction(scene.time(second)).azimuth);
     let rate_deg_s = -0.1 * (after - before).wrapped_180().degrees().signum();
     let turns = scene.report(|second, time| {
@@ -361,7 +361,7 @@ fn an_antenna_that_never_reached_its_satellite_was_late_all_the_time() {
     assert_eq!(causes(&turns), [LossCause::LateStart]);
 }
 
-/// The azimuth axis turns round before the pass is over, or is back from it after the pass began.
+/// The azimuth axis turns round before the end of the pass, or returns after the start of the pass.
 #[test]
 fn what_the_mount_had_to_lose_at_an_end_of_the_pass_is_no_fault() {
     let scene = Scene::new();
@@ -411,7 +411,7 @@ fn only_what_was_commanded_is_judged_and_the_rest_is_told() {
 #[test]
 fn between_two_positions_the_beam_ends_where_the_error_crosses_it() {
     let scene = Scene::new();
-    // It comes into the beam, which is 1 degree wide to each side, at 20 s.
+    // The satellite enters the beam, which is 1 degree wide to each side, at 20 s.
     let flown: Vec<MeasuredPosition> = (0..400)
         .map(|step| {
             let second = 1.9 * f64::from(step);
@@ -457,7 +457,7 @@ fn a_lost_link_and_a_stop_are_told_as_what_they_are() {
         pass_report.losses
     );
     assert_eq!(pass_report.verdict, PassVerdict::Poor);
-    // STOP does not explain a loss before it.
+    // STOP does not explain an earlier loss.
     late.note_stop(time(&scene, 260), LossCause::Stopped);
     scene.breaks = late;
     let flown_report = flown(&scene);
@@ -475,7 +475,7 @@ fn what_an_outage_ended_is_lost_to_the_link_until_the_end() {
         let is_lost = (103..130).contains(&second);
         let lost_since = is_lost.then(|| add_seconds(scene.pass.aos.time, 100.0));
         scene.breaks.note_link(now, lost_since);
-        // The operator is asked once the link is back.
+        // Azel asks the operator once the link is back.
         scene.breaks.note_commanded(now, second <= 131);
     }
     let report = scene.report(|second, time| match second {

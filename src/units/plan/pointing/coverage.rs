@@ -1,8 +1,8 @@
-//! How often an interval holds the true term, by noise and number of passes.
+//! Test of how often an interval contains the true term, by noise and number of passes.
 //!
-//! Orbits, mount and noise are computed here by themselves: the axes are turned one after the other, and
-//! the readings that point at a satellite are searched. The long form fits a thousand times for each
-//! row:
+//! These tests compute orbits, mount and noise independently: they turn the axes one after the
+//! other, and search the readings that point at a satellite. The long form runs a thousand fits for
+//! each row:
 //!
 //! ```text
 //! AZEL_SEED=1 AZEL_CASES=1000 cargo test --release -p azel-units --lib coverage -- --nocapture
@@ -17,12 +17,12 @@ use crate::astro::{AzEl, PointingModel, Term};
 
 const DEFAULT_CASES: u64 = 10;
 const DEG: f64 = TAU / 360.0;
-/// Seconds between two points, the time in which correlated noise falls to 1/e, and the site.
+/// Seconds between two points, correlation time of the noise (decay to 1/e, seconds), and site.
 const STEP_S: f64 = 10.0;
 const MEMORY_S: f64 = 30.0;
 const LATITUDE: f64 = 41.0 * DEG;
 
-/// Sequence of Lehmer, with a multiplier of Cannon.
+/// Lehmer sequence with a multiplier by Cannon.
 struct Draws(u128);
 
 impl Draws {
@@ -34,7 +34,7 @@ impl Draws {
         draws
     }
 
-    /// From 0 to 1.
+    /// Returns a number from 0 to 1.
     fn share(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(0xda94_2042_e4dd_58b5);
         ((self.0 >> 75) as f64) / 2.0_f64.powi(53)
@@ -44,7 +44,7 @@ impl Draws {
         start + (end - start) * self.share()
     }
 
-    /// A number from the normal distribution, by the polar method.
+    /// Returns a number from the normal distribution, by the polar method.
     fn normal(&mut self) -> f64 {
         loop {
             let (a, b) = (self.uniform(-1.0, 1.0), self.uniform(-1.0, 1.0));
@@ -56,7 +56,7 @@ impl Draws {
     }
 }
 
-/// A circular orbit over a round Earth.
+/// Circular orbit over a round Earth.
 #[derive(Clone, Copy)]
 struct Orbit {
     radius_km: f64,
@@ -75,7 +75,7 @@ impl Orbit {
         }
     }
 
-    /// Azimuth and elevation after so many seconds, radians.
+    /// Returns azimuth and elevation at `at_s` seconds, radians.
     fn look(self, at_s: f64) -> [f64; 2] {
         let along = self.start + (398_600.0 / self.radius_km.powi(3)).sqrt() * at_s;
         let (sin_u, cos_u) = along.sin_cos();
@@ -93,7 +93,8 @@ impl Orbit {
         [y.atan2(north).rem_euclid(TAU), up.atan2(y.hypot(north))]
     }
 
-    /// The times above 5 degrees, seconds; `None` if it stays too low or passes too near to the zenith.
+    /// Returns the times above 5 degrees, seconds; `None` if the pass stays too low or comes too
+    /// near to the zenith.
     fn pass(self) -> Option<Vec<f64>> {
         let steps = |from_s: f64, step_s: f64| {
             (0_u32..700).map(move |step| from_s + step_s * f64::from(step))
@@ -117,7 +118,7 @@ fn any_pass(draws: &mut Draws) -> (Orbit, Vec<f64>) {
     }
 }
 
-/// Turns a vector (east, north, up) by an angle about an axis, by the right hand.
+/// Turns a vector (east, north, up) by an angle about an axis, by the right-hand rule.
 fn turned(v: [f64; 3], axis: [f64; 3], angle: f64) -> [f64; 3] {
     let (sin, cos) = angle.sin_cos();
     let dot = (0..3).map(|i| axis[i] * v[i]).sum::<f64>() * (1.0 - cos);
@@ -129,7 +130,7 @@ fn turned(v: [f64; 3], axis: [f64; 3], angle: f64) -> [f64; 3] {
     std::array::from_fn(|i| v[i] * cos + cross[i] * sin + axis[i] * dot)
 }
 
-/// A mount with errors, degrees in the order of [`Term::ALL`].
+/// Mount with errors, degrees in the order of [`Term::ALL`].
 struct Errors([f64; Term::COUNT]);
 
 impl Errors {
@@ -140,7 +141,7 @@ impl Errors {
         }))
     }
 
-    /// The direction of the beam with the axes turned so far.
+    /// Returns the direction of the beam for these angles of the axes.
     fn beam(&self, [azimuth, elevation]: [f64; 2]) -> [f64; 2] {
         let [.., tilt_north, tilt_east, collimation, leans, _, _] = self.0;
         let beam = turned([0.0, 1.0, 0.0], [0.0, 0.0, 1.0], collimation * DEG);
@@ -152,7 +153,7 @@ impl Errors {
         [beam[0].atan2(beam[1]), beam[2].asin()]
     }
 
-    /// The readings of the axes while the beam is there, radians.
+    /// Returns the readings of the axes for this direction of the beam, radians.
     fn reading(&self, sky: [f64; 2]) -> [f64; 2] {
         let mut axes = sky;
         for _ in 0..40 {
@@ -169,23 +170,23 @@ impl Errors {
 
 #[derive(Debug, Clone, Copy)]
 enum Errs {
-    /// Independent in each point, 0.05 degrees.
+    /// Independent noise in each point, 0.05 degrees.
     White,
-    /// Correlated from point to point, 0.05 degrees.
+    /// Correlated noise from point to point, 0.05 degrees.
     Correlated,
-    /// A time error of each pass of 0.04 s, and 0.02 degrees in each point.
+    /// Time error of each pass of 0.04 s, and 0.02 degrees in each point.
     Late,
-    /// A part of each.
+    /// Mixture of all kinds.
     All,
-    /// An error of each axis that changes from pass to pass alone, 0.03 degrees, and as much in each
-    /// point.
+    /// Error of each axis that changes only from pass to pass, 0.03 degrees, and the same size in
+    /// each point.
     Constant,
 }
 
 impl Errs {
     const ALL: [Self; 5] = [Self::White, Self::Correlated, Self::Late, Self::All, Self::Constant];
 
-    /// White, correlated and constant noise, degrees, and time error, seconds.
+    /// Returns white, correlated and constant noise, degrees, and time error, seconds.
     fn sizes(self) -> [f64; 4] {
         match self {
             Self::White => [0.05, 0.0, 0.0, 0.0],
@@ -197,7 +198,7 @@ impl Errs {
     }
 }
 
-/// The points that a drive with such errors gives of a pass.
+/// Returns the points of a pass that a drive with such errors yields.
 fn any_points(mount: &Errors, errs: Errs, draws: &mut Draws) -> Vec<Point> {
     let (orbit, times_s) = any_pass(draws);
     let [white, correlated, constant, late] = errs.sizes();
@@ -234,7 +235,7 @@ fn intervals_hold_the_terms_whatever_the_noise_of_the_passes() {
         std::env::var(name).map_or(default, |text| text.parse().unwrap())
     };
     let (seed, cases) = (number("AZEL_SEED", 1), number("AZEL_CASES", DEFAULT_CASES));
-    // A few fits scatter by some percent.
+    // A small number of fits varies by some percent.
     let enough = if cases >= 1_000 { 0.93 } else { 0.85 };
     let mut short = Vec::new();
     for (passes, errs) in [1, 2, 5, 20].into_iter().flat_map(|n| Errs::ALL.map(|errs| (n, errs))) {

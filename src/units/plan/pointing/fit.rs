@@ -1,4 +1,4 @@
-//! The fit of a pointing model to points, by least squares on the sphere.
+//! Fit of a pointing model to points, by least squares on the sphere.
 //!
 //! An interval allows for noise that successive points of a pass share and for a time error of each
 //! pass. Passes count as independent of each other.
@@ -12,39 +12,39 @@ use super::{
 };
 use crate::astro::{AzEl, PointingModel, Site, Term, sun_moon};
 
-/// Rounds of a fit: each leaves less than a tenth of what was there, and terms of some degrees are
-/// found to a millionth.
+/// Number of rounds of a fit: each round leaves less than a tenth of the previous error, and finds
+/// terms of some degrees to a millionth.
 const ROUNDS: usize = 12;
-/// Fewer points tell nothing of the noise beside eight terms.
+/// Min number of points that determine the noise besides eight terms.
 const MIN_POINTS: usize = 8;
-/// Points nearer to the zenith tell nothing of the azimuth, degrees.
+/// Max elevation of points that determine the azimuth, degrees.
 const HIGHEST_DEG: f64 = 88.0;
-/// No point is more exact, degrees: more would be lost in the arithmetic.
+/// Min noise of a point, degrees: a smaller value would exceed the precision of the arithmetic.
 const MIN_NOISE_DEG: f64 = 1e-7;
-/// Share of its standard deviation by which a term that is left out may change another, and the
-/// interval of that one still holds.
+/// Max change of a term by an omitted term, as a share of its standard deviation, for which its
+/// interval still holds.
 const HIDDEN: f64 = 0.3;
-/// Fewer peaks count for no more exact than one that is found by hand, degrees.
+/// Min number of peaks that can prove a noise below [`BY_HAND_DEG`].
 const FEW: usize = 5;
 const BY_HAND_DEG: f64 = 0.1;
-/// A noise is plausible if the logarithm of its likelihood is this near to that of the likeliest.
+/// Max difference between the log-likelihoods of a plausible noise and the most likely noise.
 const PLAUSIBLE: f64 = 1.0;
-/// Quantile of the normal distribution that holds 95 % on both sides.
+/// Quantile of the normal distribution that contains 95 % on both sides.
 const NORMAL_95: f64 = 1.959_963_985;
 
 /// Object at which a point was measured. Each kind has its own noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
-    /// A satellite at one moment of a pass.
+    /// Satellite at one moment of a pass.
     Satellite,
-    /// The peak of the Sun's noise.
+    /// Peak of the Sun's noise.
     Sun,
-    /// The peak of the Moon's noise.
+    /// Peak of the Moon's noise.
     Moon,
 }
 
-/// A direction that the beam was on, and what the axes read there.
+/// Direction of the beam, and the axis readings at that direction.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     pub kind: Kind,
@@ -53,22 +53,23 @@ pub struct Point {
     #[serde(rename = "wanted")]
     pub direction: AzEl,
     pub measured: AzEl,
-    /// Among the points of its kind.
+    /// Weight among the points of its kind.
     pub weight: f64,
 }
 
 impl Point {
-    /// The peak of the Sun at this time.
+    /// Creates a point at the peak of the Sun's noise, with the direction at this time.
     pub fn of_sun(site: Site, time: Timestamp, measured: AzEl, weight: f64) -> Self {
         Self { kind: Kind::Sun, time, direction: sun_moon::sun(site, time), measured, weight }
     }
 
-    /// The peak of the Moon at this time.
+    /// Creates a point at the peak of the Moon's noise, with the direction at this time.
     pub fn of_moon(site: Site, time: Timestamp, measured: AzEl, weight: f64) -> Self {
         Self { kind: Kind::Moon, time, direction: sun_moon::moon(site, time), measured, weight }
     }
 
-    /// Measured minus modelled, of the azimuth on the sky and of the elevation, degrees.
+    /// Returns measured minus modelled angle, of the azimuth on the sky and of the elevation,
+    /// degrees.
     pub(super) fn rest_deg(&self, model: &PointingModel) -> Option<[f64; 2]> {
         let reading = model.reading(self.direction)?;
         let azimuth = (self.measured.azimuth - reading.azimuth).wrapped_180().degrees();
@@ -93,58 +94,60 @@ pub enum CannotFit {
     Diverges,
 }
 
-/// A term with the interval that holds it in at least 95 of 100 cases, in its unit.
+/// Term with an interval that contains it in at least 95 of 100 cases, in its unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
     pub value: f64,
-    /// Half of the width.
+    /// Half width of the interval, in the unit of the term.
     pub half: f64,
 }
 
-/// A term that the points cannot tell from others together, which are named. It counts as zero.
+/// Term that the points cannot distinguish from the named others together. The term counts as zero.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Alike {
     pub term: Term,
     pub others: Vec<Term>,
 }
 
-/// The noise of the points of a kind.
+/// Noise of all points of one kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KindNoise {
     pub kind: Kind,
     pub points: usize,
-    /// Standard deviation of one axis at the weight 1, degrees, without the time error of each pass.
+    /// Standard deviation of one axis at the weight 1, degrees, without the time error of each
+    /// pass.
     pub noise_deg: f64,
 }
 
 impl KindNoise {
-    /// No point counts for more exact, degrees. A few peaks tell nothing of their noise.
+    /// Returns the min noise of a point, degrees. A few peaks do not determine their noise.
     fn min_deg(&self) -> f64 {
         let are_few_peaks = self.kind != Kind::Satellite && self.points < FEW;
         if are_few_peaks { BY_HAND_DEG } else { MIN_NOISE_DEG }
     }
 }
 
-/// The model that fits best, and how well it is known.
+/// Best model, and its uncertainty.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
     pub model: PointingModel,
-    /// Terms that were fitted.
+    /// Terms that the fit determined; all others are zero.
     pub fitted: Vec<Term>,
     pub alike: Vec<Alike>,
-    /// Terms of `fitted` that a term of `alike`, of any typical size, would change by more than
-    /// a part of what the noise does: nothing tells how well they are known.
+    /// Terms of `fitted` with an unknown uncertainty: a term of `alike`, of any typical size, would
+    /// change them by more than a part of the noise.
     pub shared: Vec<Term>,
     pub noise: Vec<KindNoise>,
     covariance: Square<{ Term::COUNT }>,
-    /// The largest variance of each term by any plausible noise.
+    /// Largest variance of each term by any plausible noise.
     variances: [f64; Term::COUNT],
-    /// Equations beyond the unknowns.
+    /// Number of equations beyond the unknowns.
     freedom: usize,
 }
 
 impl Fit {
-    /// `None` for a term that was not fitted, or that holds a part of one that was not.
+    /// Returns the interval of a term; `None` for a term that was not fitted, or that contains a
+    /// part of such a term.
     pub fn interval(&self, term: Term) -> Option<Interval> {
         let is_kept = self.fitted.contains(&term) && !self.shared.contains(&term);
         let variance = is_kept.then(|| self.variances.get(term as usize).copied()).flatten()?;
@@ -157,7 +160,7 @@ impl Fit {
         row.and_then(|row| row.get(b as usize)).copied().unwrap_or_default()
     }
 
-    /// From -1 to 1; `None` where one of the terms was not fitted.
+    /// Returns the correlation from -1 to 1; `None` if one of the terms was not fitted.
     pub fn correlation(&self, a: Term, b: Term) -> Option<f64> {
         let is_kept = self.fitted.contains(&a) && self.fitted.contains(&b);
         let deviations = (self.covariance(a, a) * self.covariance(b, b)).sqrt();
@@ -165,7 +168,7 @@ impl Fit {
     }
 }
 
-/// Fits those of `terms` that the points can tell apart. The others are zero. Each of `runs` holds the
+/// Fits the terms that the points can distinguish. The others are zero. Each of `runs` contains the
 /// points of one pass in order of time, or one peak.
 pub fn fit<'a>(
     runs: impl IntoIterator<Item = &'a [Point]>,
@@ -179,7 +182,8 @@ pub fn fit<'a>(
     if points < MIN_POINTS {
         return Err(CannotFit::TooFew(points));
     }
-    // A peak that is far off counts little from the start, or it would lead the model away.
+    // A peak that is far off gets a small weight from the start; otherwise it would distort the
+    // model.
     let noise = noise_of(&runs, &PointingModel::default(), 0);
     let start = Solved { noise, ..Solved::default() };
     let white = solve(&runs, Noise::WHITE, start, |normal| normal.told_apart(&unknowns));
@@ -188,7 +192,7 @@ pub fn fit<'a>(
     }
     let tried: Vec<(Noise, Estimate<{ Term::COUNT }>)> =
         Noise::all().map(|noise| (noise, white.solution(&runs, noise))).collect();
-    // The weights already are those of the noise that independent points would have.
+    // The weights already assume the noise of independent points.
     let unit = tried.first().map_or(1.0, |(_, independent)| independent.variance);
     let is_less = |one: &Estimate<_>, other: &Estimate<_>| {
         one.log_likelihood.total_cmp(&other.log_likelihood)
@@ -230,7 +234,7 @@ pub fn fit<'a>(
     })
 }
 
-/// Fits the terms that `select` keeps to points with this noise, from `solved` on.
+/// Fits the terms that `select` keeps to points with this noise, starting at `solved`.
 fn solve(
     runs: &[PointRun],
     noise: Noise,
@@ -264,7 +268,7 @@ struct Solved {
     model: PointingModel,
     retained: Vec<usize>,
     left_out: Vec<LeftOutTerm>,
-    /// Each unknown that is kept, and by how much a term that is left out may well change it.
+    /// Retained unknowns, and the plausible change of each by an omitted term.
     moves: Vec<(usize, f64)>,
     noise: Vec<KindNoise>,
     covariance: Square<{ Term::COUNT }>,
@@ -272,12 +276,13 @@ struct Solved {
 }
 
 impl Solved {
-    /// Returns `false` if the model has been led out of the sky.
+    /// Returns `false` if the fit has diverged.
     fn is_finite(&self) -> bool {
         Term::ALL.into_iter().all(|term| self.model.term(term).is_finite())
     }
 
-    /// The equations at the present model, and the logarithm of the determinant of their scale.
+    /// Returns the equations at the current model, and the logarithm of the determinant of their
+    /// scale.
     fn normal(&self, runs: &[PointRun], noise: Noise) -> (Normal<{ Term::COUNT }>, f64) {
         let deviation_deg = |kind: Kind| {
             let found = self.noise.iter().find(|found| found.kind == kind);
@@ -289,14 +294,14 @@ impl Solved {
         (normal, log_scale)
     }
 
-    /// One more round with another noise.
+    /// Runs one more round with another noise.
     fn solution(&self, runs: &[PointRun], noise: Noise) -> Estimate<{ Term::COUNT }> {
         let (normal, log_scale) = self.normal(runs, noise);
         normal.solve(&self.retained, log_scale)
     }
 
-    /// Returns `true` if a term that is left out may well change the unknown `index` by more than
-    /// noise hides.
+    /// Returns `true` if an omitted term may change the unknown `index` by more than the noise
+    /// hides.
     fn shares(&self, index: usize) -> bool {
         let variance = self.covariance.get(index).and_then(|row| row.get(index)).copied();
         let hidden = HIDDEN * variance.unwrap_or_default().sqrt();
@@ -304,12 +309,12 @@ impl Solved {
     }
 }
 
-/// Size of a term that is not unusual, in its unit.
+/// Returns a typical size of a term, in its unit.
 fn typical_size(term: Term) -> f64 {
     if term == Term::ElevationScale { 0.005 } else { 0.5 }
 }
 
-/// The noise of each kind, with its part of the unknowns.
+/// Returns the noise of each kind, corrected for its share of the unknowns.
 fn noise_of(runs: &[PointRun], model: &PointingModel, unknowns: usize) -> Vec<KindNoise> {
     let points: usize = runs.iter().map(PointRun::len).sum();
     let free_share = 1.0 - unknowns as f64 / (2 * points) as f64;
@@ -331,8 +336,8 @@ fn noise_of(runs: &[PointRun], model: &PointingModel, unknowns: usize) -> Vec<Ki
     [Kind::Satellite, Kind::Sun, Kind::Moon].into_iter().filter_map(noise_of_kind).collect()
 }
 
-/// Quantile of Student's distribution that holds 95 % on both sides, by its expansion for many
-/// degrees of freedom.
+/// Returns the quantile of Student's distribution that contains 95 % on both sides, by its
+/// expansion for many degrees of freedom.
 fn student_95(freedom: f64) -> f64 {
     let z = NORMAL_95;
     let first = (z.powi(3) + z) / 4.0;

@@ -1,15 +1,16 @@
-//! Weighted least squares of a few unknowns, and the unknowns that the equations cannot tell apart.
+//! Weighted least squares of a few unknowns, and detection of unknowns that the equations cannot
+//! distinguish.
 
-/// An unknown whose variance the others inflate by more than this is not told apart from them.
+/// Max inflation of the variance of an unknown that is distinguishable from the others.
 const MAX_INFLATION: f64 = 1_000.0;
-/// Share of a column that another must make up to be named beside it.
+/// Min share of a column that another must make up to be named beside it.
 const NAMED_SHARE: f64 = 0.1;
 
-/// A matrix of so many rows and columns.
+/// Matrix of `N` rows and columns.
 pub(super) type Square<const N: usize> = [[f64; N]; N];
 
-/// One equation: coefficients of the unknowns, the coefficient of an unknown of its own group, and the
-/// value. Each has unit variance.
+/// Equation: coefficients of the unknowns, the coefficient of an unknown of its own group, and the
+/// value. Each equation has unit variance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Equation<const N: usize> {
     pub(super) row: [f64; N],
@@ -17,43 +18,43 @@ pub(super) struct Equation<const N: usize> {
     pub(super) value: f64,
 }
 
-/// The sums of the equations.
+/// Sums of the equations.
 #[derive(Debug, Clone)]
 pub(super) struct Normal<const N: usize> {
     products: Square<N>,
     right: [f64; N],
-    /// Squares of the columns before the unknowns of the groups were eliminated.
+    /// Squares of the columns before the elimination of the group unknowns.
     squares: [f64; N],
     /// Square of the values.
     value: f64,
     equations: usize,
-    /// Number of unknowns that were eliminated, and the logarithm of their determinant.
+    /// Number of eliminated unknowns, and the logarithm of their determinant.
     eliminated: usize,
     log_eliminated: f64,
 }
 
-/// An unknown that is left out.
+/// Omitted unknown.
 #[derive(Debug, Clone, Default)]
 pub(super) struct LeftOutTerm {
     pub(super) unknown: usize,
-    /// Unknowns that largely make it up.
+    /// Unknowns that largely make up the omitted one.
     pub(super) named: Vec<usize>,
 }
 
-/// The values of the unknowns.
+/// Values of the unknowns.
 #[derive(Debug, Clone)]
 pub(super) struct Estimate<const N: usize> {
     pub(super) values: [f64; N],
-    /// Their covariance for equations of unit variance.
+    /// Covariance for equations of unit variance.
     pub(super) covariance: Square<N>,
-    /// Variance of an equation, as the residuals show it.
+    /// Variance of an equation, from the residuals.
     pub(super) variance: f64,
     /// Logarithm of the likelihood of the residuals.
     pub(super) log_likelihood: f64,
 }
 
 impl<const N: usize> Estimate<N> {
-    /// The covariance by the variance of an equation, in units of `unit`.
+    /// Returns the covariance with the variance of an equation, in units of `unit`.
     pub(super) fn scaled_covariance(&self, unit: f64) -> Square<N> {
         self.covariance.map(|row| row.map(|value| value * self.variance / unit))
     }
@@ -72,7 +73,7 @@ impl<const N: usize> Normal<N> {
         }
     }
 
-    /// Adds the equations of a group, and eliminates the unknown that they have of their own.
+    /// Adds the equations of a group, and eliminates the group's own unknown.
     pub(super) fn add(&mut self, group: &[Equation<N>]) {
         let (mut own_row, mut own_value, mut own_square) = ([0.0; N], 0.0, 0.0);
         for Equation { row, own, value } in group {
@@ -104,7 +105,7 @@ impl<const N: usize> Normal<N> {
         self.value += weight * value * value;
     }
 
-    /// Equations beyond the unknowns, `count` of the common ones.
+    /// Returns the number of equations beyond the unknowns, with `count` common unknowns.
     pub(super) fn freedom(&self, count: usize) -> usize {
         self.equations.saturating_sub(self.eliminated + count).max(1)
     }
@@ -113,7 +114,7 @@ impl<const N: usize> Normal<N> {
         self.products.get(a).and_then(|row| row.get(b)).copied().unwrap_or_default()
     }
 
-    /// Those of `candidates` that can be told apart, the first ones first, and the others.
+    /// Returns the distinguishable ones of `candidates`, earlier ones first, and the others.
     pub(super) fn told_apart(&self, candidates: &[usize]) -> (Vec<usize>, Vec<LeftOutTerm>) {
         let (mut retained, mut left_out): (Vec<usize>, Vec<LeftOutTerm>) = (Vec::new(), Vec::new());
         for unknown in candidates.iter().copied() {
@@ -136,13 +137,14 @@ impl<const N: usize> Normal<N> {
         (retained, left_out)
     }
 
-    /// By how much one unit of what is left out changes each of the unknowns `retained`.
+    /// Returns the change of each unknown in `retained` by one unit of the omitted term.
     pub(super) fn moves(&self, retained: &[usize], left_out: &LeftOutTerm) -> Vec<(usize, f64)> {
         let shares = self.factor(retained).solve(|other| self.product(other, left_out.unknown));
         retained.iter().copied().zip(shares).collect()
     }
 
-    /// The unknowns `retained`. `log_scale`: logarithm of the determinant by which the equations were scaled.
+    /// Solves for the unknowns `retained`. `log_scale`: logarithm of the determinant by which the
+    /// equations were scaled.
     pub(super) fn solve(&self, retained: &[usize], log_scale: f64) -> Estimate<N> {
         let factor = self.factor(retained);
         let right = |unknown: usize| self.right.get(unknown).copied().unwrap_or_default();
@@ -190,7 +192,6 @@ impl<const N: usize> Normal<N> {
 /// Cholesky factor of the equations of some unknowns.
 struct Factor {
     retained: Vec<usize>,
-    /// Lengths of the columns.
     lengths: Vec<f64>,
     /// Lower triangle, for columns of length one.
     rows: Vec<Vec<f64>>,
@@ -202,7 +203,7 @@ impl Factor {
         2.0 * own.zip(&self.lengths).map(|(own, length)| (own * length).ln()).sum::<f64>()
     }
 
-    /// Solves the equations for a right side.
+    /// Solves the equations for a right-hand side.
     fn solve(&self, right: impl Fn(usize) -> f64) -> Vec<f64> {
         let mut found: Vec<f64> = Vec::new();
         for ((unknown, length), row) in self.retained.iter().zip(&self.lengths).zip(&self.rows) {

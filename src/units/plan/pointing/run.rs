@@ -8,26 +8,27 @@ use super::{
 };
 use crate::astro::{AzEl, PointingModel, Term, time::seconds_between};
 
-/// Coefficients of a point in one axis: those of the terms, of the time error, and the residual.
+/// Coefficients of a point in one axis: the terms, the time error, and the residual.
 const COLUMNS: usize = Term::COUNT + 2;
 
-/// The noise of each axis: a part that is independent in each point, and a part whose correlation
-/// decays exponentially with time.
+/// Noise of each axis: an independent part in each point, and a part whose correlation decays
+/// exponentially with time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Noise {
-    /// Share of the variance that is correlated, from 0 to less than 1.
+    /// Correlated share of the variance, from 0 to less than 1.
     share: f64,
-    /// Time in which the correlation falls to 1/e, seconds.
+    /// Time in which the correlation decays to 1/e, seconds.
     time_s: f64,
 }
 
 impl Noise {
     pub(super) const WHITE: Self = Self { share: 0.0, time_s: 1.0 };
     const SHARES: [f64; 6] = [0.1, 0.2, 0.4, 0.6, 0.8, 0.99];
-    /// From the time between two points to longer than any pass in a low orbit.
+    /// Correlation times, seconds, from the time between two points to longer than any pass in a
+    /// low orbit.
     const TIMES_S: [f64; 7] = [5.0, 10.0, 20.0, 40.0, 80.0, 160.0, 640.0];
 
-    /// The noises that a fit tries.
+    /// Returns the noises that a fit tries.
     pub(super) fn all() -> impl Iterator<Item = Self> {
         let correlated = Self::TIMES_S
             .into_iter()
@@ -36,7 +37,7 @@ impl Noise {
     }
 }
 
-/// The usable points of one pass in order of time, or one peak.
+/// Usable points of one pass in order of time, or one peak.
 #[derive(Debug)]
 pub(super) struct PointRun(Vec<Timed>);
 
@@ -45,7 +46,7 @@ struct Timed {
     point: Point,
     /// Time since the first point, seconds.
     at_s: f64,
-    /// By how much the wanted direction turns, azimuth on the sky and elevation, degrees a second.
+    /// Rate of the wanted direction, azimuth on the sky and elevation, degrees a second.
     rate_deg_s: [f64; 2],
 }
 
@@ -70,8 +71,8 @@ impl PointRun {
         self.0.len()
     }
 
-    /// Returns the kind, the weight and the residuals of each point, without the time error that fits
-    /// best; `true`: it has one.
+    /// Returns the kind, the weight and the residuals of each point, without the best time error.
+    /// The flag is `true` if the run has a time error.
     pub(super) fn residuals_deg(
         &self,
         model: &PointingModel,
@@ -93,9 +94,9 @@ impl PointRun {
         (rests.map(residual).collect(), is_timed)
     }
 
-    /// Adds the equations of the run to `normal`, each of unit variance and independent of the others.
-    /// `deviation_deg`: standard deviation of an axis at the weight 1. Returns the logarithm of the
-    /// determinant of the scale.
+    /// Adds the equations of the run to `normal`, each of unit variance and independent of the
+    /// others. `deviation_deg`: standard deviation of an axis at the weight 1. Returns the
+    /// logarithm of the determinant of the scale.
     pub(super) fn add_to(
         &self,
         normal: &mut Normal<{ Term::COUNT }>,
@@ -124,7 +125,8 @@ impl PointRun {
     }
 }
 
-/// Rate of the direction `direction` between two points, azimuth on the sky and elevation, degrees a second.
+/// Returns the rate of `direction` between two points, azimuth on the sky and elevation, degrees a
+/// second.
 fn rate_deg_s(direction: AzEl, before: &Point, after: &Point) -> [f64; 2] {
     let span_s = seconds_between(before.time, after.time);
     if span_s <= 0.0 {
@@ -138,8 +140,8 @@ fn rate_deg_s(direction: AzEl, before: &Point, after: &Point) -> [f64; 2] {
     [clockwise, up].map(|side| turned.dot(side).to_degrees())
 }
 
-/// Makes the successive values of an axis independent: a Kalman filter whose state is the correlated
-/// part of the noise. It takes all columns alike.
+/// Filter that makes the successive values of an axis independent: a Kalman filter whose state is
+/// the correlated part of the noise. The filter treats all columns equally.
 struct NoiseFilter {
     noise: Noise,
     expected: [f64; COLUMNS],

@@ -1,4 +1,4 @@
-//! Models that are known, found again from points with noise.
+//! Tests that recover known models from points with noise.
 
 use jiff::Timestamp;
 
@@ -35,7 +35,7 @@ fn any_model(random: &mut Random) -> PointingModel {
     model
 }
 
-/// Fits points that are of no pass.
+/// Fits points that belong to no pass.
 fn fit_scattered(points: &[Point], terms: &[Term]) -> Result<Fit, CannotFit> {
     fit(points.chunks(1), terms)
 }
@@ -45,7 +45,7 @@ fn any_direction(random: &mut Random, elevations_deg: (f64, f64)) -> AzEl {
     AzEl::from_degrees(uniform(random, 0.0, 360.0), uniform(random, from_deg, to_deg))
 }
 
-/// A point that is read with this noise.
+/// Returns a point with this noise in its reading.
 fn point(
     kind: Kind,
     target: AzEl,
@@ -111,7 +111,8 @@ fn each_term_acts_as_its_name_says() {
     assert!(north[0].abs() < 1e-3 && (north[1] - 0.1).abs() < 1e-3, "{north:?}");
     let east = read(Term::TiltEast, 90.0, 40.0);
     assert!(east[0].abs() < 1e-3 && (east[1] - 0.1).abs() < 1e-3, "{east:?}");
-    // The beam lies to the left: the axis turns further to the right, the more the higher.
+    // The beam lies to the left: the axis turns further to the right, and more so at higher
+    // elevations.
     let [low, high] = [0.0, 60.0].map(|elevation_deg| read(Term::Collimation, 10.0, elevation_deg));
     assert!((low[0] - 0.1).abs() < 1e-3 && (high[0] - 0.2).abs() < 1e-3, "{low:?} {high:?}");
     let leans = read(Term::NonPerpendicularity, 10.0, 45.0);
@@ -139,7 +140,7 @@ fn intervals_hold_the_terms_and_are_as_small_as_they_can_be() {
             let interval = fit.interval(term).unwrap();
             let deviation = interval.value - model.term(term);
             sufficient += u32::from(deviation.abs() <= interval.half);
-            // The bound of Cramer and Rao: the covariance by the noise that there is.
+            // The bound of Cramer and Rao is the covariance for the true noise.
             let bound = fit.covariance(term, term) * (noise_deg / found.noise_deg).powi(2);
             *square += deviation * deviation / bound / f64::from(CASES);
         }
@@ -152,7 +153,7 @@ fn intervals_hold_the_terms_and_are_as_small_as_they_can_be() {
     assert!((0.9..=1.1).contains(&noises), "{noises}");
 }
 
-/// Points as passes give them: some seconds apart, along one or a few ways over the sky.
+/// Returns points like in real passes: some seconds apart, along one or a few paths over the sky.
 fn of_passes(
     model: &PointingModel,
     count: usize,
@@ -258,7 +259,7 @@ fn terms_that_the_points_do_not_tell_apart_are_named_and_left_out() {
     assert_eq!(alike(Term::Sag), Some(&[Term::ElevationOffset][..]));
     assert_eq!((fit.model.sag_deg, fit.interval(Term::Sag)), (0.0, None));
     assert_eq!(fit.correlation(Term::Sag, Term::ElevationOffset), None);
-    // The remaining terms describe these points all the same.
+    // The remaining terms still describe these points.
     assert!((0.8..1.2).contains(&(fit.noise[0].noise_deg / 0.02)), "{:?}", fit.noise);
     assert!(fit.correlation(Term::TiltNorth, Term::TiltEast).unwrap().abs() < 0.5);
 }

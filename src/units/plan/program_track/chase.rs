@@ -1,16 +1,16 @@
-//! Expected position of an antenna. Its axes start at a measured position and approach the planned path
-//! at their maximum rates.
+//! Expected position of an antenna. Its axes start at a measured position and approach the planned
+//! path at their maximum rates.
 
 use jiff::Timestamp;
 
 use super::path::Path;
 use crate::astro::time::{add_seconds, seconds_between};
 
-/// Longest gap between measurements, seconds; after a longer one the chase restarts.
+/// Max gap between measurements, seconds; the chase restarts after a longer one.
 const MAX_GAP_S: f64 = 5.0;
-/// An axis this near to the path has arrived, degrees.
+/// Max distance from the path at which an axis counts as arrived, degrees.
 const ARRIVED_DEG: f64 = 0.01;
-/// Longest time for which an arrival is predicted, seconds.
+/// Max time for which the chase predicts an arrival, seconds.
 const AHEAD_S: u32 = 600;
 
 /// Simulated axes of an antenna that follows its commands, degrees as the mount counts.
@@ -21,7 +21,8 @@ pub(super) struct Chase {
 }
 
 impl Chase {
-    /// Advances `previous` to `time`. Restarts at the measured positions if there is none or it is too old.
+    /// Advances `previous` to `time`. Restarts at the measured positions if `previous` is missing
+    /// or too old.
     pub(super) fn advanced(
         previous: Option<Self>,
         path: &Path,
@@ -30,7 +31,7 @@ impl Chase {
     ) -> Self {
         let elapsed_s = previous.map(|previous| seconds_between(previous.updated_at, time));
         match (previous, elapsed_s) {
-            // Over a longer gap, nobody knows whether the antenna was free to move.
+            // After a longer gap, the antenna may not have been free to move.
             (Some(previous), Some(elapsed_s)) if (0.0..=MAX_GAP_S).contains(&elapsed_s) => {
                 previous.after(path, rates_deg_s, elapsed_s)
             }
@@ -49,14 +50,14 @@ impl Chase {
         Self { axes_deg, updated_at: time }
     }
 
-    /// Both axes are on the path.
+    /// Returns `true` if both axes are on the path.
     pub(super) fn has_arrived(&self, path: &Path) -> bool {
         let path_deg = path.positions_deg(self.updated_at);
         self.axes_deg.iter().zip(path_deg).all(|(deg, to_deg)| (to_deg - deg).abs() < ARRIVED_DEG)
     }
 
-    /// Predicts, in steps of one second, when the axes meet `is_on_target`. Returns `None` beyond ten
-    /// minutes or after the end of the path.
+    /// Predicts, in steps of one second, when the axes meet `is_on_target`. Returns `None` beyond
+    /// ten minutes or after the end of the path.
     pub(super) fn reaches(
         self,
         path: &Path,

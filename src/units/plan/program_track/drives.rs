@@ -1,5 +1,4 @@
-//! The two drives of an antenna: the positions that point in a direction, and how they
-//! are commanded.
+//! Drives of an antenna: the positions that point in a direction, and the commands for them.
 
 use crate::{
     astro::{
@@ -16,39 +15,39 @@ use crate::{
 };
 
 const ZENITH_DEG: f64 = 90.0;
-/// An X/Y mount is sent no closer to an end of its travel, or to its minimum elevation, than this,
-/// degrees: it receives a rounded direction, and refuses one that lies beyond.
+/// Min distance of a command from the end of the travel of an X/Y mount, or from its minimum
+/// elevation, degrees. The mount receives a rounded direction, and refuses a direction beyond the
+/// end.
 const BESIDE_END_DEG: f64 = 0.01;
 
-/// The abilities of the drives for position commands.
+/// Abilities of the drives for position commands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drives {
     pub mount: Mount,
     pub limits: MotionLimits,
     /// Rate of each axis, degrees per second: the allowed rate until the real one is measured.
     pub rates_deg_s: [f64; 2],
-    /// Step between the positions that can be commanded, degrees; 0 if all positions can.
+    /// Step between commandable positions, degrees; 0 if all positions are commandable.
     pub step_deg: f64,
-    /// Largest difference between the commanded position and the position at rest, degrees.
+    /// Max difference between the commanded position and the position at rest, degrees.
     pub arrives_within_deg: f64,
-    /// `false` for a rotator of azimuth only.
+    /// `false` for a rotator without elevation.
     pub has_elevation: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SetPoint {
-    /// Position of an azimuth axis, which may exceed a full turn; `None` leaves the axis
-    /// where it stands.
+    /// Position of an azimuth axis, which may exceed a full turn; `None` leaves the axis in place.
     pub azimuth: Option<Angle>,
-    /// Position of an elevation axis, beyond 90 degrees when flipped; `None` leaves the axis
-    /// where it stands.
+    /// Position of an elevation axis, beyond 90 degrees when flipped; `None` leaves the axis in
+    /// place.
     pub elevation: Option<Angle>,
 }
 
 impl Drives {
-    /// The positions of both axes along `samples`, which are `step_s` seconds apart, with the flip
-    /// of `choice` on an elevation-over-azimuth mount. Where a direction is out of travel, the axes
-    /// wait as near to it as they can.
+    /// Returns the positions of both axes along `samples`, which are `step_s` seconds apart, with
+    /// the flip of `choice` on an elevation-over-azimuth mount. If a direction is out of travel,
+    /// the axes wait as near to it as possible.
     pub(super) fn along(
         &self,
         samples: &[Sample],
@@ -79,7 +78,7 @@ impl Drives {
     ) -> Planned {
         let (lowest_deg, highest_deg) = self.elevations_deg();
         let axes = samples.iter().map(|Sample { direction, .. }| {
-            // Clipped first as a direction: the minimum elevation lies askew to both axes.
+            // Clip the direction first, because the minimum elevation lies askew to both axes.
             let elevation_deg = direction.elevation_deg().min(highest_deg).max(lowest_deg);
             let reachable = AzEl { elevation: Angle::from_degrees(elevation_deg), ..*direction };
             let axes = xy_mount::axes_from_azel(reachable, lower_axis);
@@ -95,7 +94,7 @@ impl Drives {
         };
         let [lower_max_deg, upper_max_deg] = self.rates_deg_s.map(|rate| rate * step_s);
         let lower_cost = |index: usize| {
-            // The farther the upper axis is tipped, the less the lower one matters.
+            // The further the upper axis is tipped, the less the lower axis matters.
             let ((sin, _), target) = (target_at(&upper, index), target_at(&lower, index));
             move |position: &(f64, f64)| sin.powi(2) * cost_of(target, *position)
         };
@@ -121,7 +120,7 @@ impl Drives {
         }
     }
 
-    /// The position nearest to `position_deg` that can be commanded to an axis, 0 or 1.
+    /// Returns the commandable position of an axis, 0 or 1, nearest to `position_deg`.
     pub(super) fn tellable_deg(&self, axis: usize, position_deg: f64) -> f64 {
         let (from_deg, to_deg) =
             self.mount.travel_deg().get(axis).copied().unwrap_or((f64::MIN, f64::MAX));
@@ -129,7 +128,7 @@ impl Drives {
             (Mount::AzEl { .. }, 1) => self.elevations_deg(),
             _ => (from_deg, to_deg),
         };
-        // An X/Y mount is commanded by direction, in which no axis has a step.
+        // An X/Y mount receives a direction, in which no axis has a step.
         if matches!(self.mount, Mount::Xy { .. }) {
             let (from_deg, to_deg) = beside_ends((from_deg, to_deg));
             return position_deg.max(from_deg).min(to_deg);
@@ -145,8 +144,8 @@ impl Drives {
         (position_deg / self.step_deg).round().clamp(first, last) * self.step_deg
     }
 
-    /// The command that brings the axes to these positions. `None` leaves an axis of an az/el
-    /// mount where it stands.
+    /// Returns the command that brings the axes to these positions. `None` leaves an axis of an
+    /// az/el mount in place.
     pub(super) fn set_point(&self, [first, second]: [Option<f64>; 2]) -> SetPoint {
         match self.mount {
             Mount::Xy { lower_axis_azimuth_deg, .. } => {
@@ -169,7 +168,7 @@ impl Drives {
         }
     }
 
-    /// The limits of the axes for a detour.
+    /// Returns the limits of the axes for a detour.
     pub(in crate::plan) fn axis_limits(&self) -> AxisLimits {
         let [first, second] = self.mount.travel_deg();
         let second =
@@ -177,7 +176,7 @@ impl Drives {
         AxisLimits::new([first, second], self.rates_deg_s, self.step_deg + self.arrives_within_deg)
     }
 
-    /// Returns `true` if one axis can be commanded without the other.
+    /// Returns `true` if Azel can command one axis without the other.
     pub(super) fn takes_single_axes(&self) -> bool {
         matches!(self.mount, Mount::AzEl { .. })
     }
@@ -187,8 +186,8 @@ impl Drives {
         !self.has_elevation || direction.elevation_deg() >= self.elevations_deg().0
     }
 
-    /// Ends of the elevation axis above the minimum elevation, on both sides of the zenith if the
-    /// mount can flip.
+    /// Returns the ends of the elevation axis above the minimum elevation, on both sides of the
+    /// zenith if the mount can flip.
     fn elevations_deg(&self) -> (f64, f64) {
         let floor_deg = self.limits.minimum_elevation_deg;
         let (lowest_deg, highest_deg) = match self.mount {
@@ -200,7 +199,7 @@ impl Drives {
         (lowest_deg, highest_deg.max(lowest_deg))
     }
 
-    /// Positions of an X/Y mount.
+    /// Clips the positions of an X/Y mount to its travel.
     fn within_travel(&self, axes_deg: [f64; 2]) -> [f64; 2] {
         let [(a, b), (c, d)] = self.mount.travel_deg().map(beside_ends);
         let [first, second] = axes_deg;
@@ -208,7 +207,7 @@ impl Drives {
     }
 }
 
-/// The travel of a crossed axis as far as it can be told by a direction, degrees.
+/// Returns the travel of a crossed axis that a direction can command, degrees.
 fn beside_ends((from_deg, to_deg): (f64, f64)) -> (f64, f64) {
     (from_deg + BESIDE_END_DEG, to_deg - BESIDE_END_DEG)
 }
@@ -284,14 +283,14 @@ mod tests {
             let drives = drives(&antenna, 0.0);
             let [first, second] = positions(&drives, sample_of(90.0, 1.0));
             let point = drives.set_point([Some(first), Some(second)]);
-            // A crossed axis keeps off its end, and off the floor.
+            // A crossed axis stays off its end, and off the floor.
             assert!((0.0..0.02).contains(&(point.elevation.unwrap().degrees() - 5.0)));
             assert!((point.azimuth.unwrap().degrees() - 90.0).abs() < 1e-9);
             assert!(!drives.may_reach(AzEl::from_degrees(90.0, 1.0)));
         }
     }
 
-    /// An antenna whose elevation travels over the zenith.
+    /// Returns an antenna whose elevation travels over the zenith.
     fn tipping() -> Antenna {
         let mut antenna = Antenna::genius("", "");
         if let Mount::AzEl { elevation_to_deg, .. } = &mut antenna.mount {

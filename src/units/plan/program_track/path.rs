@@ -1,4 +1,4 @@
-//! The positions of both axes along a pass, planned before it begins.
+//! Positions of both axes along a pass, planned before the pass begins.
 
 use jiff::Timestamp;
 
@@ -14,13 +14,13 @@ use crate::{
     },
 };
 
-/// Shortest interval between two points of a path, seconds.
+/// Min interval between two points of a path, seconds.
 const MIN_STEP_S: f64 = 0.5;
-/// Maximum number of points of a path.
+/// Max number of points of a path.
 const MAX_POINTS: f64 = 2400.0;
-/// A path still holds if the rate of an axis differs by less than this share.
+/// Max difference of an axis rate for which a path remains valid, as a share of the rate.
 const SAME_RATE: f64 = 0.02;
-/// An axis that turns faster than this share of its rate is slewing.
+/// Share of its rate above which an axis counts as slewing.
 const FULL_RATE: f64 = 0.999;
 
 /// Positions of both axes at equal intervals, never faster than the axes turn. The axes stand
@@ -38,9 +38,9 @@ pub(super) struct Path {
 }
 
 impl Path {
-    /// The path of [`Drives::along`] along `course` with `offsets` from `begin` to `end`, with
-    /// detours round the keep-outs of `bounds`. The path ends early if the target decays; `None`
-    /// if it has decayed already.
+    /// Plans the path of [`Drives::along`] along `course` with `offsets` from `begin` to `end`,
+    /// with detours round the keep-outs of `bounds`. The path ends early if the target decays;
+    /// `None` if it has already decayed.
     pub(super) fn along(
         (course, offsets): (&Course, TrackOffsets),
         drives: &Drives,
@@ -50,7 +50,7 @@ impl Path {
         choice: FlipChoice,
     ) -> Option<Self> {
         let span_s = seconds_between(begin, end).max(0.0);
-        // A pass of many hours moves slowly, so its points may be farther apart.
+        // A pass of many hours moves slowly, so its points may be further apart.
         let step_s = (span_s / MAX_POINTS).max(MIN_STEP_S);
         let steps = (span_s / step_s).ceil() as u32;
         let samples: Vec<Sample> = (0..=steps)
@@ -74,7 +74,7 @@ impl Path {
     pub(super) fn is_for(&self, rates_deg_s: [f64; 2]) -> bool {
         let mut axes = self.max_deg.into_iter().zip(rates_deg_s);
         axes.all(|(max_deg, rate_deg_s)| {
-            // A measured rate varies a little, and a new path for each reading would never settle.
+            // A measured rate varies slightly, and a new path for each reading would never settle.
             (rate_deg_s * self.step_s / max_deg - 1.0).abs() < SAME_RATE
         })
     }
@@ -88,12 +88,12 @@ impl Path {
         self.flip
     }
 
-    /// Seconds from the beginning of the path to `time`.
+    /// Returns the seconds from the beginning of the path to `time`.
     pub(super) fn seconds(&self, time: Timestamp) -> f64 {
         seconds_between(self.start, time)
     }
 
-    /// The lowest and highest position of an axis between two times, which are in seconds from the
+    /// Returns the lowest and highest position of an axis between two times, in seconds from the
     /// beginning of the path, the earlier first.
     pub(super) fn span_deg(&self, axis: usize, from_s: f64, to_s: f64) -> (f64, f64) {
         let [start, end] = [from_s, to_s].map(|at_s| self.position_deg(axis, at_s));
@@ -101,7 +101,8 @@ impl Path {
         inner.fold((start.min(end), start.max(end)), widened)
     }
 
-    /// Like [`Path::span_deg`], but continued for as long as the span stays within `within_deg`.
+    /// Does the same as [`Path::span_deg`], but continues as long as the span stays within
+    /// `within_deg`.
     pub(super) fn longest_span_deg(
         &self,
         axis: usize,
@@ -112,7 +113,7 @@ impl Path {
         let mut span = self.span_deg(axis, from_s, to_s);
         for position in self.positions_between(axis, to_s, f64::INFINITY) {
             let wider = widened(span, position);
-            // One command serves as long as the path stays within the tolerance of the axis.
+            // One command suffices as long as the path stays within the tolerance of the axis.
             if wider.1 - wider.0 > within_deg {
                 break;
             }
@@ -121,7 +122,7 @@ impl Path {
         span
     }
 
-    /// The end of the slew that an axis is making; `None` if it is not slewing.
+    /// Returns the end of the current slew of an axis; `None` if the axis is not slewing.
     pub(super) fn slew_end_deg(&self, axis: usize, at_s: f64) -> Option<f64> {
         let (first, max_deg) = (self.index(at_s), self.max_deg.get(axis)?);
         let rest = self.axes.get(axis)?.get(first..)?;
@@ -140,7 +141,7 @@ impl Path {
         rest.get(steps).copied()
     }
 
-    /// Positions of both axes at `time`, degrees as the mount counts.
+    /// Returns the positions of both axes at `time`, degrees as the mount counts.
     pub(super) fn positions_deg(&self, time: Timestamp) -> [f64; 2] {
         let at_s = self.seconds(time);
         [0, 1].map(|axis| self.position_deg(axis, at_s))
@@ -155,7 +156,7 @@ impl Path {
         before + (after - before) * share
     }
 
-    /// The points strictly between two times.
+    /// Returns the points strictly between two times.
     fn positions_between(&self, axis: usize, from_s: f64, to_s: f64) -> impl Iterator<Item = f64> {
         let points = self.axes.get(axis).map(Vec::as_slice).unwrap_or_default();
         let first = (from_s / self.step_s).floor().max(-1.0) + 1.0;
@@ -163,7 +164,7 @@ impl Path {
         points.get(first as usize..after as usize).unwrap_or_default().iter().copied()
     }
 
-    /// The point at or before `at_s`.
+    /// Returns the index of the point at or before `at_s`.
     fn index(&self, at_s: f64) -> usize {
         let last = self.axes[0].len().saturating_sub(1);
         ((at_s / self.step_s).floor().max(0.0) as usize).min(last)
@@ -171,7 +172,7 @@ impl Path {
 }
 
 impl Drives {
-    /// [`Drives::along`], with detours round the keep-outs of `bounds`.
+    /// Does the same as [`Drives::along`], with detours round the keep-outs of `bounds`.
     pub(in crate::plan) fn along_within(
         &self,
         bounds: &Bounds,
@@ -181,7 +182,7 @@ impl Drives {
         choice: FlipChoice,
     ) -> Planned {
         let mut planned = self.along(samples, step_s, start, choice);
-        // A rotator of azimuth only cannot go over or under a keep-out.
+        // A rotator without elevation cannot go over or under a keep-out.
         if bounds.has_way_round() && self.has_elevation {
             let limits = self.axis_limits();
             let detoured = round(&planned.axes_deg, samples, step_s, start, limits, bounds);
@@ -201,8 +202,8 @@ fn widened((min, max): (f64, f64), position: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// Rises by a degree per second for ten seconds, then slews down at 5 degrees per
-    /// second for four.
+    /// Returns a path that rises by a degree per second for ten seconds, then slews down at 5
+    /// degrees per second for four.
     fn path() -> Path {
         let up = (0..=20).map(|step| f64::from(step) * 0.5);
         let down = (1..=8).map(|step| 10.0 - 2.5 * f64::from(step));

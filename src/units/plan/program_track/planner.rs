@@ -1,4 +1,4 @@
-//! The planner of position commands.
+//! Planner of position commands.
 
 use glam::DQuat;
 use jiff::Timestamp;
@@ -26,20 +26,20 @@ use crate::{
     station::TrackSettings,
 };
 
-/// Longest time that a path covers, seconds.
+/// Max duration of a path, seconds.
 const PATH_S: f64 = 3.0 * 3600.0;
-/// An antenna that comes this much nearer to its path, degrees, within this time, seconds, is still on
-/// its way: its drives may be slower than known.
+/// Approach to the path, degrees within this time, seconds, that proves an antenna on its way: its
+/// drives may be slower than known.
 const COMES_NEARER_DEG: f64 = 1.25;
 const COMES_NEARER_S: f64 = 5.0;
-/// An arrival is predicted this often, seconds.
+/// Interval between predictions of an arrival, seconds.
 const PREDICTED_EVERY_S: f64 = 5.0;
 /// Time shifts at which an antenna still counts as on its path, seconds.
 const SHOWN_LATE_S: [f64; 5] = [-1.0, 0.0, 1.0, 2.0, 3.0];
 /// Time before its end at which a path is extended, beyond the look-ahead of a command, seconds.
 const MARGIN_S: f64 = 60.0;
 
-/// A path that a target needs, with all that it depends on.
+/// Order of a path for a target, with all values on which the path depends.
 #[derive(Debug, Clone)]
 pub struct PathOrder {
     track: ProgramTrack,
@@ -56,12 +56,12 @@ pub struct PathOrder {
 }
 
 impl PathOrder {
-    /// Returns `true` if the path may need detours, for which a search takes long.
+    /// Returns `true` if the path may need detours, whose search takes long.
     pub fn may_detour(&self) -> bool {
         self.bounds.has_way_round()
     }
 
-    /// Plans the path. With detours that takes up to a tenth of a second.
+    /// Plans the path. A path with detours takes up to a tenth of a second.
     pub fn plan(self) -> PlannedPath {
         let path = Path::along(
             (&self.course, self.offsets),
@@ -75,11 +75,11 @@ impl PathOrder {
     }
 }
 
-/// The answer to a [`PathOrder`].
+/// Answer to a [`PathOrder`].
 #[derive(Debug, Clone)]
 pub struct PlannedPath {
     order: PathOrder,
-    /// `None` if the target has decayed.
+    /// Planned path; `None` if the target has decayed.
     path: Option<Path>,
 }
 
@@ -92,13 +92,13 @@ pub struct Next {
 /// Comparison of a measured direction with the planned path.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum OnPath {
-    /// The antenna cannot have reached the path yet, or the path leaves the target, as in an unwrap.
-    /// `arrival` is the predicted arrival on target; `None` if none is predicted.
+    /// Antenna that cannot have reached the path yet, or path that leaves the target, like in an
+    /// unwrap. `arrival` is the predicted arrival on target; `None` without a prediction.
     OnItsWay {
         #[serde(rename = "until")]
         arrival: Option<Timestamp>,
     },
-    /// The antenna should be on its path but is off by this angle.
+    /// Antenna that should be on its path but is off by this angle.
     Due {
         #[serde(rename = "off")]
         deviation: Angle,
@@ -108,14 +108,14 @@ pub enum OnPath {
 /// Progress of an antenna that is off its path.
 #[derive(Debug, Clone, Copy, Default)]
 struct Approach {
-    /// Error that later ones are compared with, degrees, and its time.
+    /// Error to compare later errors with, degrees, and its time.
     anchor: Option<(f64, Timestamp)>,
     progress_at: Option<Timestamp>,
 }
 
 impl Approach {
-    /// Takes an error. Returns `true` while the antenna makes progress: its drives may be slower than
-    /// known.
+    /// Takes an error. Returns `true` while the antenna makes progress: its drives may be slower
+    /// than known.
     fn comes_nearer(&mut self, off_deg: f64, time: Timestamp) -> bool {
         let is_recent =
             |start: &Timestamp| (0.0..=COMES_NEARER_S).contains(&seconds_between(*start, time));
@@ -124,7 +124,7 @@ impl Approach {
         if has_progressed {
             self.progress_at = Some(time);
         }
-        // The anchor moves on, so that progress is measured over the last moments only.
+        // Advance the anchor, so that only recent progress counts.
         if has_progressed || off_deg > from_deg || !is_recent(&begin) {
             self.anchor = Some((off_deg, time));
         }
@@ -132,7 +132,7 @@ impl Approach {
     }
 }
 
-/// Plans the commands for one target.
+/// Planner of the commands for one target.
 #[derive(Debug)]
 pub struct Planner {
     track: ProgramTrack,
@@ -141,19 +141,21 @@ pub struct Planner {
     drives: Drives,
     settings: TrackSettings,
     bounds: Bounds,
-    /// The path, and the end of its pass.
+    /// Path, and the end of its pass.
     path: Option<(Path, Timestamp)>,
-    /// The path was planned within other bounds or with other offsets; its flip still holds.
+    /// `true` if the path was planned within other bounds or with other offsets; its flip still
+    /// applies.
     is_stale: bool,
     chase: Option<Chase>,
     approach: Approach,
-    /// The predicted arrival, and when it was predicted.
+    /// Predicted arrival, and the time of the prediction.
     arrival: Option<(Option<Timestamp>, Timestamp)>,
     axes: [TrackedAxis; 2],
 }
 
 impl Planner {
-    /// Fails if the elements do not describe an orbit. Paths lead round the keep-outs of `bounds`.
+    /// Creates a planner whose paths lead round the keep-outs of `bounds`. Fails if the elements do
+    /// not describe an orbit.
     pub fn new(
         track: ProgramTrack,
         drives: Drives,
@@ -179,13 +181,13 @@ impl Planner {
         })
     }
 
-    /// The same for an antenna with this pointing model.
+    /// Sets the pointing model of the antenna.
     #[must_use]
     pub fn with_model(self, model: PointingModel) -> Self {
         Self { course: self.course.with_model(model), ..self }
     }
 
-    /// The next passes begin with these offsets.
+    /// Sets the offsets with which the next passes begin.
     pub fn begin_with(&mut self, offsets: TrackOffsets) {
         self.track.offsets = offsets;
     }
@@ -224,9 +226,8 @@ impl Planner {
         self.course.on_the_sky(time, offsets)
     }
 
-    /// From where the pointing model has the beam with these offsets at `time` to where that is on the
-    /// sky, if the offsets of the axes make up for further errors of the mount; `None` without such
-    /// offsets.
+    /// Returns the rotation from the modelled beam direction with these offsets at `time` to the
+    /// true one on the sky. Returns `None` unless axis offsets correct further errors of the mount.
     pub fn to_sky(&self, time: Timestamp, offsets: TrackOffsets) -> Option<DQuat> {
         if offsets.on_the_sky() == offsets {
             return None;
@@ -242,16 +243,16 @@ impl Planner {
         self.demanded(time, self.offsets).filter(|direction| self.drives.may_reach(*direction))
     }
 
-    /// Returns the command at `now` that has the antenna on the target by the next look; `None`
-    /// while the last command or the present position is good enough. Fails once the target has
-    /// decayed.
+    /// Returns the command at `now` that brings the antenna onto the target by the next update.
+    /// Returns `None` while the last command or the current position is good enough. Fails once the
+    /// target has decayed.
     pub fn update(
         &mut self,
         now: Timestamp,
         axes: [AxisNow; 2],
     ) -> Result<Option<Next>, PropagationError> {
         let [first_now, second_now] = axes;
-        // A worker plans paths with detours. Any other is planned quickly enough right here.
+        // A worker plans paths with detours. Other paths are fast enough to plan here.
         if let Some(order) = self.path_order(now, axes) {
             self.take_path(order.plan())?;
         }
@@ -278,7 +279,8 @@ impl Planner {
     }
 
     /// Takes measured positions, degrees as the mount counts, and learns the rates of the axes from
-    /// long slews. `instant` is of the steady clock, since UTC may be corrected in the middle of a slew.
+    /// long slews. `instant` comes from the steady clock, because UTC may be corrected in the
+    /// middle of a slew.
     pub fn watch(&mut self, instant: Instant, positions_deg: [Option<f64>; 2]) {
         let axes = self.axes.iter_mut().zip(positions_deg).zip(&mut self.drives.rates_deg_s);
         for ((axis, position_deg), rate_deg_s) in axes {
@@ -288,14 +290,14 @@ impl Planner {
             }
         }
         for axis in &mut self.axes {
-            // Both axes need both rates, because either one can hold the path up.
+            // Both axes need both rates, because either axis can delay the path.
             axis.drives = self.drives;
         }
     }
 
-    /// Compares the reported direction with the planned path. The axes tell only where the antenna sets
-    /// out: the station may not describe their geometry. The target counts as met within `half_beam`.
-    /// Returns `None` without a path, or for an angle that is not known.
+    /// Compares the reported direction with the planned path. Uses the axes only for the start of
+    /// the motion, because the station may not describe their geometry. The target counts as met
+    /// within `half_beam`. Returns `None` without a path, or for an unknown angle.
     pub fn compare(
         &mut self,
         time: Timestamp,
@@ -307,7 +309,7 @@ impl Planner {
             self.chase = None;
             return None;
         };
-        // Without an elevation axis there is no error in elevation.
+        // Without an elevation axis, the error in elevation is zero.
         let [_, elevation_deg] = path.positions_deg(time);
         let [first, second] = positions_deg;
         let second = if self.drives.has_elevation { second } else { Some(elevation_deg) };
@@ -345,7 +347,7 @@ impl Planner {
             let on_path = path.positions_deg(add_seconds(time, -late_s));
             separation(on_path, measured).degrees()
         });
-        // A unit may report a position that is already old; the age that fits best is assumed.
+        // A unit may report an outdated position; assume the age that fits best.
         let off_deg = off_deg.into_iter().fold(f64::INFINITY, f64::min);
         if self.approach.comes_nearer(off_deg, time) {
             return Some(OnPath::OnItsWay { arrival: None });
@@ -353,7 +355,7 @@ impl Planner {
         Some(OnPath::Due { deviation: Angle::from_degrees(off_deg) })
     }
 
-    /// Largest error that the settings of program track allow at `time`.
+    /// Returns the max error that the settings of program track allow at `time`.
     pub fn allowed(&self, time: Timestamp) -> Angle {
         let Some((path, _)) = &self.path else { return Angle::ZERO };
         let period_s = self.settings.period().as_secs_f64() + self.settings.latency_s;
@@ -364,30 +366,31 @@ impl Planner {
         now.separation(later) + Angle::from_degrees(bands_deg)
     }
 
-    /// Restarts the chase at the next measurement, because the antenna was not free to follow the path.
+    /// Restarts the chase at the next measurement, because the antenna was not free to follow the
+    /// path.
     pub fn restart_chase(&mut self) {
         (self.chase, self.arrival) = (None, None);
         self.approach = Approach::default();
     }
 
-    /// Rates of the axes as far as known, degrees per second.
+    /// Returns the known rates of the axes, degrees per second.
     pub fn rates_deg_s(&self) -> [f64; 2] {
         self.drives.rates_deg_s
     }
 
-    /// Notes that `next` was sent.
+    /// Records that `next` was sent.
     pub fn sent(&mut self, next: Next) {
         for (axis, last_command) in self.axes.iter_mut().zip(next.last_command) {
             axis.last_command = last_command;
         }
     }
 
-    /// Forgets the last command, since it is unknown whether it still holds.
+    /// Forgets the last command, because it may no longer hold.
     pub fn forget_sent(&mut self) {
         self.forget_sent_of([true; 2]);
     }
 
-    /// [`Self::forget_sent`] of the chosen axes.
+    /// Does the same as [`Self::forget_sent`] for the chosen axes.
     pub fn forget_sent_of(&mut self, chosen: [bool; 2]) {
         for (axis, _) in self.axes.iter_mut().zip(chosen).filter(|(_, is_chosen)| *is_chosen) {
             axis.last_command = LastCommand::default();
@@ -403,14 +406,14 @@ impl Planner {
     fn reaches_on(&self, now: Timestamp) -> bool {
         let Some((path, ends)) = &self.path else { return false };
         let ahead_s = self.settings.latency_s + self.settings.period().as_secs_f64() + MARGIN_S;
-        // Very long passes are planned piece by piece; the next piece must be ready in time.
+        // The planner plans a very long pass in pieces; the next piece must be ready in time.
         let is_short = path.end() < *ends && seconds_between(now, path.end()) < ahead_s;
         now < *ends && !is_short
     }
 
-    /// A path that is planned again for other rates keeps its flip once the pass has begun.
-    /// Before, another flip is taken only if it is clearly better, so that the antenna does not go
-    /// back and forth.
+    /// Returns the flip for a new path. A path planned again for other rates keeps its flip once
+    /// the pass has begun. Before the pass, another flip must be clearly better, so that the
+    /// antenna does not go back and forth.
     fn choice(&self, now: Timestamp) -> FlipChoice {
         match self.path.as_ref().filter(|_| self.reaches_on(now)) {
             Some((path, _)) if self.is_under_way(now) => FlipChoice::Keep(path.flip()),
@@ -419,13 +422,13 @@ impl Planner {
         }
     }
 
-    /// Returns `true` once the axes follow a path. A new path then begins where they are; before, one
-    /// command takes them to the beginning of the path.
+    /// Returns `true` once the axes follow a path. A new path then begins at their positions;
+    /// before, one command takes them to the beginning of the path.
     fn is_under_way(&self, now: Timestamp) -> bool {
         self.path.as_ref().is_some_and(|(path, _)| path.seconds(now) >= 0.0)
     }
 
-    /// The path that has to be planned before the next command; `None` while there is one.
+    /// Returns the order of the path that the next command needs; `None` while a path is available.
     pub fn path_order(&self, now: Timestamp, axes: [AxisNow; 2]) -> Option<PathOrder> {
         if self.has_path(now) {
             return None;
@@ -446,19 +449,20 @@ impl Planner {
             start: Start {
                 axes_deg,
                 lead_s: seconds_between(now, begin),
-                // Not earlier: the approach to a pass under way would go in steps.
+                // Set this only under way: otherwise the approach to a current pass would go in
+                // steps.
                 sets_out: self.is_under_way(now),
             },
             choice: self.choice(now),
         })
     }
 
-    /// Takes a path that was ordered by this planner, or by another one for the same track, unless
-    /// the order has changed since. Fails if the target has decayed.
+    /// Takes a path that this planner ordered, or another planner for the same track. Ignores the
+    /// path if the order has changed since. Fails if the target has decayed.
     pub fn take_path(&mut self, planned: PlannedPath) -> Result<(), PropagationError> {
         let PlannedPath { order, path } = planned;
-        // The offsets or bounds may have changed while a worker was planning.
-        // Rates are not compared: `has_path` orders again where they have changed too much.
+        // The offsets or bounds may have changed while a worker was planning. This check skips the
+        // rates: `has_path` orders again after a large change of them.
         let is_up_to_date = order.track == self.track
             && order.course.model == self.course.model
             && order.offsets == self.offsets

@@ -1,6 +1,6 @@
-//! Paths with detours round the keep-outs that are to be gone round.
+//! Paths with detours round the keep-outs that permit them.
 //!
-//! The path is one line. Where the target is behind an edge of a keep-out, the line follows the
+//! The path is one line. If the target is behind an edge of a keep-out, the line follows the
 //! margin. The position of the antenna on the line at each time minimises the pointing error and
 //! never moves faster than the axes turn. On a long detour, the axes set out early and arrive late.
 
@@ -14,15 +14,15 @@ use crate::{
     },
 };
 
-/// Share of their rate at which the axes turn along a detour: anything faster counts as a slew,
+/// Share of their rate at which the axes turn along a detour: a faster motion counts as a slew,
 /// which is one command.
 const SHARE_OF_RATE: f64 = 0.95;
-/// Longest distance between two points of a detour, degrees.
+/// Max distance between two points of a detour, degrees.
 const STEP_DEG: f64 = 0.5;
 
-/// The positions of both axes along `samples`, `step_s` seconds apart, with detours round the
-/// keep-outs; `None` where none is in the way. `axes_deg` are the positions without detours; a
-/// stretch that has no detour stays as it is.
+/// Returns the positions of both axes along `samples`, `step_s` seconds apart, with detours round
+/// the keep-outs; `None` if none is in the way. `axes_deg` contains the positions without detours;
+/// a stretch without a detour stays unchanged.
 pub(super) fn round(
     axes_deg: &[Vec<f64>; 2],
     samples: &[Sample],
@@ -40,7 +40,7 @@ pub(super) fn round(
     let mut line = Polyline { points: Vec::new(), limits, max_s: step_s * SHARE_OF_RATE };
     let mut wanted_s = Vec::with_capacity(samples.len());
     if let (Some(true), [Some(first), Some(second)]) = (is_behind.first(), start.axes_deg) {
-        // The axes may already be in the middle of a detour; before a pass they wait at its end.
+        // The axes may already be in the middle of a detour; before a pass, they wait at its end.
         let stands = [first, second];
         let is_outside = !bounds.is_gone_round(stands, 0.0);
         if start.lead_s <= 0.0 && is_outside {
@@ -62,7 +62,7 @@ pub(super) fn round(
         let comes_out = places_deg.get(stretch.end).copied();
         let detour = match (line.end_deg(), comes_out) {
             (Some(entry_deg), Some(end)) => {
-                // A search takes long, so the bounds of this moment stand for the whole stretch.
+                // A search takes long, so use the bounds of this moment for the whole stretch.
                 let middle_time = targets.get(count / 2).map(|sample| sample.time);
                 middle_time
                     .and_then(|time| detour::route(&bounds.at_time(time), &limits, entry_deg, end))
@@ -92,12 +92,12 @@ pub(super) fn round(
     Some([first, second])
 }
 
-/// The path as a line, measured in seconds at full rate.
+/// Path as a line, measured in seconds at full rate.
 struct Polyline {
     /// Seconds from the start, and positions in degrees as the mount counts.
     points: Vec<(f64, [f64; 2])>,
     limits: AxisLimits,
-    /// Longest stretch between two samples, seconds.
+    /// Max stretch between two samples, seconds.
     max_s: f64,
 }
 
@@ -128,7 +128,7 @@ impl Polyline {
     }
 
     /// Extends the line along a detour. Returns the nearest point of the line to each of `targets`,
-    /// never going back.
+    /// without going back.
     fn detour(&mut self, turns_deg: &[[f64; 2]], targets: &[Sample], bounds: &Bounds) -> Vec<f64> {
         let mut first = self.points.len().saturating_sub(1);
         let from_deg = self.end_deg().or(turns_deg.first().copied());
@@ -150,7 +150,7 @@ impl Polyline {
         targets.iter().map(nearest).collect()
     }
 
-    /// Degrees as the mount counts.
+    /// Returns the position at `at_s`, degrees as the mount counts.
     fn position_deg(&self, at_s: f64) -> [f64; 2] {
         let after = self.points.partition_point(|(point_s, _)| *point_s < at_s);
         let end = self.points.get(after).or(self.points.last());
@@ -165,7 +165,7 @@ impl Polyline {
         [start_deg[0] + a * share, start_deg[1] + b * share]
     }
 
-    /// Cost of a position on the line.
+    /// Returns the cost of a position on the line.
     fn cost(&self, target: AzEl, at_s: f64, bounds: &Bounds) -> f64 {
         1.0 - bounds.direction(self.position_deg(at_s)).separation(target).radians().cos()
     }

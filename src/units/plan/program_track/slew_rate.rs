@@ -1,18 +1,18 @@
-//! The real rate of an axis, measured during long slews.
+//! Real rate of an axis, measured during long slews.
 
 use crate::{clock::Instant, station::ranges};
 
 /// Distance from the start and the end of a slew within which an axis may be slower, degrees.
 const RAMP_DEG: f64 = 5.0;
-/// Shortest distance that gives a rate, degrees: long enough for the rounding of a sensor to whole
-/// degrees to matter little.
+/// Min distance that yields a rate, degrees: long enough to make the rounding of a sensor to whole
+/// degrees insignificant.
 const MIN_WAY_DEG: f64 = 20.0;
-/// Minimum number of positions that give a rate.
+/// Min number of positions that yield a rate.
 const MIN_READINGS: usize = 8;
-/// Maximum number of positions that are kept, for an axis that never arrives.
+/// Max number of stored positions, for an axis that never arrives.
 const MAX_READINGS: usize = 4096;
 
-/// Measures the slew that is under way.
+/// Measurement of the current slew.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SlewRate {
     slew: Option<Slew>,
@@ -27,8 +27,8 @@ struct Slew {
 }
 
 impl SlewRate {
-    /// Takes the position of the axis at `instant` on its way to `to_deg`, degrees as the mount counts.
-    /// Returns the full rate, degrees per second, if a long slew has just ended.
+    /// Takes the position of the axis at `instant` on its way to `to_deg`, degrees as the mount
+    /// counts. Returns the full rate, degrees per second, if a long slew has just ended.
     pub(super) fn take(
         &mut self,
         instant: Instant,
@@ -39,7 +39,7 @@ impl SlewRate {
             return self.slew.take().and_then(|slew| slew.rate_deg_s());
         };
         match &mut self.slew {
-            // Bits, because a new command is told by any change of the target, however small.
+            // Compare bits, because any change of the target, however small, is a new command.
             Some(slew) if slew.to_deg.to_bits() == to_deg.to_bits() => {
                 slew.take(instant, position_deg)
             }
@@ -65,13 +65,13 @@ impl Slew {
             return None;
         }
         let rate_deg_s = self.rate_deg_s();
-        // One slew gives one rate: without readings, its end gives no second one.
+        // One slew yields one rate: without readings, its end yields no second one.
         self.readings.clear();
         rate_deg_s
     }
 
-    /// The mean of the middle half of the rates, each of which is taken over a quarter of the way.
-    /// This leaves out late positions and moments of standstill.
+    /// Returns the mean of the middle half of the rates, each measured over a quarter of the path.
+    /// This omits late positions and moments of standstill.
     fn rate_deg_s(&self) -> Option<f64> {
         let (_, first_deg) = self.readings.first()?;
         let (_, last_deg) = self.readings.last()?;
@@ -99,8 +99,9 @@ mod tests {
 
     use super::*;
 
-    /// The rate learned from an axis that turns from 10 to `to_deg` at `rate_deg_s`. Its position
-    /// is measured every `each_s` and reported as `reported` makes it from the second and the position.
+    /// Returns the rate learned from an axis that turns from 10 to `to_deg` at `rate_deg_s`. The
+    /// unit measures its position every `each_s`; `reported` computes the reported value from the
+    /// second and the position.
     fn learned(
         to_deg: f64,
         rate_deg_s: f64,

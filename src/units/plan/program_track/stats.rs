@@ -7,7 +7,7 @@ use crate::astro::Angle;
 /// Pointing error while tracking, and the number of commands.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct TrackStats {
-    /// Number of positions sent.
+    /// Number of sent positions.
     pub commands: u32,
     samples: u32,
     sum_of_squares_deg2: f64,
@@ -23,13 +23,13 @@ impl TrackStats {
         self.worst_deg = self.worst_deg.max(off_deg);
     }
 
-    /// The root mean square error; `None` before the first measurement.
+    /// Returns the root mean square error; `None` before the first measurement.
     pub fn rms(&self) -> Option<Angle> {
         let mean_deg2 = self.sum_of_squares_deg2 / f64::from(self.samples);
         (self.samples > 0).then(|| Angle::from_degrees(mean_deg2.sqrt()))
     }
 
-    /// The largest error; `None` before the first measurement.
+    /// Returns the largest error; `None` before the first measurement.
     pub fn worst(&self) -> Option<Angle> {
         (self.samples > 0).then(|| Angle::from_degrees(self.worst_deg))
     }

@@ -12,12 +12,12 @@ use crate::{
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Target {
-    /// A satellite, by its elements.
+    /// Satellite, by its elements.
     Satellite(Box<Elements>),
-    /// The Sun, as a source of known noise.
+    /// Sun, as a source of known noise.
     Sun,
     Moon,
-    /// A direction that does not move, such as that of a geostationary satellite or a mast.
+    /// Fixed direction, such as a geostationary satellite or a mast.
     Fixed(AzEl),
 }
 
@@ -31,7 +31,7 @@ impl Target {
         }
     }
 
-    /// Up to nine digits; `None` if the target is not a satellite.
+    /// Returns the catalog number, up to nine digits; `None` if the target is not a satellite.
     pub fn catalog_number(&self) -> Option<u32> {
         match self {
             Self::Satellite(elements) => Some(elements.catalog_number()),
@@ -39,13 +39,13 @@ impl Target {
         }
     }
 
-    /// Returns `true` if it has a way over the sky.
+    /// Returns `true` if the target moves over the sky.
     pub fn moves(&self) -> bool {
         !matches!(self, Self::Fixed(_))
     }
 }
 
-/// A target seen from a site, prepared for repeated evaluation.
+/// Target seen from a site, prepared for repeated evaluation.
 #[derive(Debug, Clone)]
 pub struct Course {
     site: Site,
@@ -62,7 +62,7 @@ enum Body {
 }
 
 impl Course {
-    /// Fails if the elements of `target` do not describe an orbit.
+    /// Prepares the target. Fails if the elements of `target` do not describe an orbit.
     pub fn new(target: &Target, site: Site) -> Result<Self, PropagationError> {
         let body = match target {
             Target::Satellite(elements) => Body::Satellite(Box::new(Propagator::new(elements)?)),
@@ -73,13 +73,13 @@ impl Course {
         Ok(Self { site, body, model: PointingModel::default() })
     }
 
-    /// The same, followed by an antenna with this pointing model.
+    /// Sets the pointing model of the antenna that follows the target.
     #[must_use]
     pub fn with_model(self, model: PointingModel) -> Self {
         Self { model, ..self }
     }
 
-    /// Direction into which the antenna has to point at `time`; `None` once the target has decayed.
+    /// Returns the required direction of the antenna at `time`; `None` once the target has decayed.
     pub fn direction(&self, time: Timestamp) -> Option<AzEl> {
         match &self.body {
             Body::Satellite(propagator) => {
@@ -98,17 +98,17 @@ impl Course {
         if self.model.is_none() {
             return Some(direction);
         }
-        // So near to the zenith that the model has no reading, the axes go to the direction itself.
+        // Near the zenith, where the model has no reading, the axes go to the direction itself.
         Some(self.model.reading(direction).unwrap_or(direction))
     }
 
-    /// Direction on the sky at `time` with these offsets, if those of the axes and the pointing model
-    /// make up for errors of the mount; `None` once the target has decayed.
+    /// Returns the direction on the sky at `time` with these offsets, if the axis offsets and the
+    /// pointing model correct errors of the mount. Returns `None` once the target has decayed.
     pub fn on_the_sky(&self, time: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
         offsets.on_the_sky().demanded(time, |utc| self.direction(utc))
     }
 
-    /// Direction of the beam by the pointing model when the axes read `reading`.
+    /// Returns the direction of the beam by the pointing model when the axes read `reading`.
     pub fn beam(&self, reading: AzEl) -> AzEl {
         self.model.direction(reading)
     }

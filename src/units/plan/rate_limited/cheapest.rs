@@ -1,21 +1,21 @@
-//! The cheapest path of an axis between two bounds, by dynamic programming on a grid of
-//! positions and times.
+//! Cheapest path of an axis between two bounds, by dynamic programming on a grid of positions and
+//! times.
 
 use std::ops::Range;
 
 use super::{Envelope, position_at};
 
-/// Maximum number of positions of the grid.
+/// Max number of positions of the grid.
 const MAX_PLACES: f64 = 240.0;
 /// Grid positions by which the axis turns from one time to the next at full rate.
 const FULL: usize = 2;
 /// Cost of turning by one grid position, so that the axis does not turn needlessly.
 const TURN_COST: f64 = 1e-9;
-/// Costs of the turns to a grid position, from `FULL` below it to as many above.
+/// Costs of the turns to a grid position, from `FULL` positions below it to `FULL` above.
 const TURN_COSTS: [f64; 2 * FULL + 1] =
     [2.0 * TURN_COST, TURN_COST, 0.0, TURN_COST, 2.0 * TURN_COST];
 
-/// A path on the grid.
+/// Path on the grid.
 pub(super) struct Rough {
     /// Positions, one for each interval of the slew, degrees.
     pub(super) places_deg: Vec<f64>,
@@ -23,8 +23,8 @@ pub(super) struct Rough {
     pub(super) cell_deg: f64,
 }
 
-/// The cheapest path through `slew` of an axis that stands at `before_deg` one interval before the
-/// slew and turns by at most `max_deg` per interval.
+/// Returns the cheapest path through `slew` of an axis that stands at `before_deg` one interval
+/// before the slew and turns by at most `max_deg` per interval.
 pub(super) fn find<P, C: Fn(&P) -> f64>(
     bounds: &Envelope,
     slew: &Range<usize>,
@@ -46,8 +46,8 @@ pub(super) fn find<P, C: Fn(&P) -> f64>(
     let lowest_deg = place_deg(0);
     let prepared: Vec<P> = (0..places).map(|place| prepare(place_deg(place))).collect();
 
-    // Cost of the cheapest path to each place, one row per time. Beyond either end, the cost stays
-    // infinite.
+    // `looks` counts the rows, one per time, with the cost of the cheapest path to each place.
+    // Beyond either end, the cost stays infinite.
     let looks = slew.len().div_ceil(stride);
     let width = places + 2 * FULL;
     let mut sums = vec![f64::INFINITY; (looks + 1) * width];
@@ -59,7 +59,7 @@ pub(super) fn find<P, C: Fn(&P) -> f64>(
     for (look, row) in (1..).zip(rows) {
         let index = stride.saturating_mul(look).saturating_add(slew.start).min(slew.end);
         let index = index.saturating_sub(1);
-        // The places between the bounds, widened by a cell.
+        // The range covers the places between the bounds, widened by a cell.
         let place = |deg: f64| (deg - lowest_deg) / cell_deg;
         let first = (place(position_at(&bounds.low, index)) - 1.0).ceil().max(0.0) as usize;
         let after = (place(position_at(&bounds.high, index)) + 2.0).floor().max(0.0) as usize;
@@ -98,8 +98,8 @@ pub(super) fn find<P, C: Fn(&P) -> f64>(
     Rough { places_deg: (1..=slew.len()).map(place_at).collect(), cell_deg }
 }
 
-/// The cheapest way to a place from those `near` it, of which the sums are given: the index of one
-/// of them, and the sum with the turn.
+/// Returns the cheapest way to a place from the sums of the places `near` it: the index of the
+/// previous place, and the sum with the turn.
 fn cheapest_turn(near: &[f64; TURN_COSTS.len()]) -> (usize, f64) {
     let turns = near.iter().zip(TURN_COSTS).map(|(sum, cost)| sum + cost).enumerate();
     turns.fold((FULL, f64::INFINITY), |best, turn| if turn.1 < best.1 { turn } else { best })

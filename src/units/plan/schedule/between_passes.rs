@@ -1,4 +1,5 @@
-//! Between passes: where an antenna goes, and when it sets out to the next one.
+//! State of an antenna between passes: its place, and the time at which it sets out to the next
+//! pass.
 
 use jiff::Timestamp;
 
@@ -8,18 +9,19 @@ use crate::{
     station::{Antenna, AutomationRule, BetweenPasses, RuleAction, Station},
 };
 
-/// Longest time by which Azel sends an antenna to a pass earlier than necessary, seconds.
+/// Max time by which Azel sends an antenna to a pass earlier than necessary, seconds.
 pub const LEAD_S: f64 = 60.0;
 
-/// Where the antenna is between passes at `time`, by its settings and by the rules of the station.
+/// Returns the state of the antenna between passes at `time`, by its settings and by the rules of
+/// the station.
 pub fn between_passes(station: &Station, antenna: &Antenna, time: Timestamp) -> BetweenPasses {
     let mut rules = station.rules.iter().filter(|rule| rule.is_for(antenna.id)).peekable();
-    // The Sun is computed only where a rule may ask for it.
+    // Compute the Sun only if a rule may need it.
     if rules.peek().is_none() {
         return antenna.automatic.between_passes;
     }
     let sun = sun_is(station, time);
-    // A rule about a satellite or a group says nothing about the time between passes.
+    // A rule about a satellite or a group does not apply between passes.
     let mut holding = rules.filter(|rule| rule.subject.is_none() && rule.holds_at(time, sun));
     match holding.next() {
         Some(AutomationRule { action: RuleAction::Park, .. }) => BetweenPasses::Park,
@@ -27,16 +29,15 @@ pub fn between_passes(station: &Station, antenna: &Antenna, time: Timestamp) -> 
     }
 }
 
-/// Time after a pass that must be left before the antenna sets out, for it to park: both ways,
-/// seconds.
+/// Returns the min time left after a pass for parking, both ways, seconds.
 pub fn parks_within_s(antenna: &Antenna) -> f64 {
     antenna.longest_slew_s() + LEAD_S
 }
 
-/// When an antenna is sent to an entry, at the latest.
+/// Returns the latest time at which an antenna sets out to an entry.
 pub fn sets_out(entry: &Entry, plan: BetweenPasses) -> Timestamp {
     let before_s = match plan {
-        // As soon as the pass before is over.
+        // The antenna sets out as soon as the previous pass is over.
         BetweenPasses::Wait => entry.slew_s + entry.set_up_s + entry.spare_s.unwrap_or_default(),
         BetweenPasses::Stay | BetweenPasses::Park => {
             let lead_s = entry.spare_s.unwrap_or(LEAD_S).clamp(0.0, LEAD_S);

@@ -1,4 +1,4 @@
-//! The request as the solver takes it: every way of taking every pass, and what it is worth.
+//! Request in the form of the solver: every way to take every pass, and its worth.
 
 use std::collections::HashMap;
 
@@ -14,10 +14,10 @@ use super::{
 };
 use crate::station::{AntennaId, ChooseBy, Take as Chosen};
 
-/// States that the search for the proved best may look at.
+/// Max number of states in the search for the proved best.
 const EFFORT: u64 = 12_000_000;
 
-/// Everything about a take that the solver need not know.
+/// Facts about a take that the solver does not need.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fact {
     pub(super) pass: PassKey,
@@ -41,20 +41,20 @@ pub(super) struct Board<'a> {
     passes: usize,
 }
 
-/// The whole of a pass on one antenna.
+/// Whole pass on one antenna.
 struct Whole<'a> {
     candidate: &'a Candidate,
     pass: usize,
     antenna: usize,
     way: &'a Way,
-    /// From AOS to LOS.
+    /// Time from AOS to LOS, milliseconds.
     sight_ms: i64,
 }
 
 impl<'a> Board<'a> {
     pub(super) fn new(request: &'a Request<'a>) -> Self {
         let fixed_as = |entry: &Entry| {
-            // By overlap, because newer elements shift AOS.
+            // Compare by overlap, because newer elements shift AOS.
             let is_it = |candidate: &Candidate| {
                 candidate.key.satellite == entry.pass.satellite
                     && candidate.key.aos < entry.end
@@ -73,7 +73,7 @@ impl<'a> Board<'a> {
             passes: request.candidates.len() + request.fixed.len(),
         };
         for ((entry, pass), extra) in request.fixed.iter().zip(&fixed).zip(0..) {
-            // Beside one part of a pass that is handed over, the other may be taken.
+            // If one part of a pass is handed over, the other part may also be taken.
             let own = request.candidates.len() + extra;
             let pass = pass.filter(|_| entry.shared_with.is_none()).unwrap_or(own);
             board.add_fixed(entry, pass, limits.of_pass.get(pass).copied().flatten());
@@ -144,7 +144,7 @@ impl<'a> Board<'a> {
             share: 1000,
             is_whole: true,
             height_mdeg: 0,
-            // The first class of all, so that no plan gives up a pass under way.
+            // This is the first class of all, so that no plan gives up a pass under way.
             row: Row::new(Class::Fixed, 1) + Row::new(entry.class, entry.worth),
         });
         self.facts.push(Fact {
@@ -161,16 +161,16 @@ impl<'a> Board<'a> {
         });
     }
 
-    /// The whole way, and what remains of it with a later start or an earlier end.
+    /// Returns the whole pass, and its remainders with a later start or an earlier end.
     fn parts(&self, whole: &Whole<'_>, crowd: &Crowd) -> Vec<(Span, PassPart)> {
         let (way, span) = (whole.way, whole.way.span());
         let mut parts = vec![(span, PassPart::Alone)];
         let Some(partial) = self.request.partial else { return parts };
         let counted_ms = way.counted_ms(span);
         let min_ms = (counted_ms as f64 * partial.min_share).max(partial.min_s * 1000.0) as i64;
-        // At least one, because limits of zero must not let an empty part pass.
+        // Require at least one, because limits of zero must not let an empty part pass.
         let is_enough = |part: Span| way.counted_ms(part) >= min_ms.max(1);
-        // Cuts are counted by division, so the step must not be zero.
+        // A division counts the cuts, so the step must not be zero.
         let step_ms = ((partial.step_s * 1000.0) as i64).max(1_000);
         let cuts = |room_ms: i64| (0..=room_ms / step_ms).map(move |step| step * step_ms);
         let room_ms = (span.length_ms() - min_ms).max(0);
@@ -213,7 +213,7 @@ impl<'a> Board<'a> {
         if previous.holds(whole.pass, antenna.id) {
             let steadiness = self.request.steadiness;
             let seconds = match choose_by {
-                // Worth counts passes here, to which no seconds can be added.
+                // Worth counts passes here, and seconds must not be added to passes.
                 ChooseBy::MostPasses => 0,
                 _ => i64::from(steadiness.seconds) * 1000,
             };
@@ -259,7 +259,7 @@ impl Candidate {
         }
     }
 
-    /// Returns the worth of counted milliseconds in its class.
+    /// Returns the worth of a take with this counted time, milliseconds, in its class.
     pub(super) fn worth(&self, choose_by: ChooseBy, counted_ms: i64, part: PassPart) -> i64 {
         match choose_by {
             ChooseBy::Elevation => {
@@ -271,7 +271,7 @@ impl Candidate {
     }
 }
 
-/// All that an antenna can take as a whole.
+/// Returns all whole passes that an antenna can take.
 fn wholes<'a>(request: &'a Request<'a>, antenna: usize) -> Vec<Whole<'a>> {
     let Some(planned) = request
         .antennas
@@ -285,19 +285,19 @@ fn wholes<'a>(request: &'a Request<'a>, antenna: usize) -> Vec<Whole<'a>> {
     for (pass, candidate) in candidates.filter(|(_, other)| other.refusal.is_none()) {
         let option = candidate.options.iter().find(|(id, _)| *id == planned.id);
         let Some((_, Choice::Judged(Verdict::Possible(ways)))) = option else { continue };
-        // Shares are divided by it.
+        // Shares are divided by this value.
         let sight_ms = (ms(candidate.los) - ms(candidate.key.aos)).max(1);
         found.extend(ways.iter().map(|way| Whole { candidate, pass, antenna, way, sight_ms }));
     }
     found
 }
 
-/// Where other passes come so near that a late start or an early end may be worth it.
+/// Neighbouring passes that may justify a late start or an early end of a pass.
 struct Crowd {
-    /// By antenna: pass, start and end, by start.
+    /// Pass, start and end for each antenna, by start.
     spans: Vec<Vec<(usize, Span)>>,
     longest_pass_ms: Vec<i64>,
-    /// By antenna: no slew takes longer.
+    /// Max slew time of each antenna, milliseconds.
     reach_ms: Vec<i64>,
     free_ms: Vec<i64>,
 }
@@ -344,8 +344,8 @@ impl Crowd {
         }
     }
 
-    /// Returns whether another pass may need the first part of `span`, and the last one, of which
-    /// `room_ms` may be given up.
+    /// Returns whether another pass may need the first part of `span`, and whether one may need its
+    /// last part. The pass may give up at most `room_ms`.
     fn overlaps(&self, whole: &Whole<'_>, span: Span, room_ms: i64) -> (bool, bool) {
         let own = |list: &[i64]| list.get(whole.antenna).copied().unwrap_or_default();
         let reach_ms = own(&self.reach_ms);
@@ -366,7 +366,7 @@ impl Crowd {
     }
 }
 
-/// Limits of passes a day that can be reached at all.
+/// Daily pass limits that the request can reach.
 struct DayLimits {
     maxima: Vec<u32>,
     of_pass: Vec<Option<u32>>,
@@ -388,7 +388,7 @@ impl DayLimits {
         let of_pass = request.candidates.iter().map(|candidate| {
             let max = candidate.max_per_day.filter(|_| candidate.refusal.is_none())?;
             let day = day(candidate);
-            // A limit out of reach would only multiply the states of the search.
+            // An unreachable limit would only multiply the states of the search.
             if counts.get(&day).is_none_or(|count| *count <= max) {
                 return None;
             }
@@ -403,11 +403,11 @@ impl DayLimits {
     }
 }
 
-/// Passes that the previous schedule took.
+/// Passes of the previous schedule.
 struct PreviousPlan {
     /// Index of the pass, and the antenna.
     takes: Vec<(usize, AntennaId)>,
-    /// Start from which the times of AOS are counted.
+    /// Reference time of the AOS times, milliseconds.
     epoch_ms: i64,
 }
 

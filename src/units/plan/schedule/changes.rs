@@ -9,13 +9,13 @@ use super::{
 };
 use crate::station::AntennaId;
 
-/// Entries that begin or end later by less are the same.
+/// Max shift of the start or end of an unchanged entry, seconds.
 const SAME_S: f64 = 1.0;
 
-/// A change of one pass.
+/// Change of the entry of one pass between two schedules.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Change {
-    /// As in the new schedule, where it is still there.
+    /// Key of the pass, in the new schedule if it is still there.
     pub pass: PassKey,
     pub changed: Changed,
     pub cause: ChangeCause,
@@ -36,7 +36,7 @@ pub enum Changed {
         #[serde(rename = "to")]
         destination: AntennaId,
     },
-    /// It starts later and ends earlier by so many seconds; less than 0 for the other way.
+    /// Later start and earlier end by these seconds; less than 0 for the opposite direction.
     Cut {
         late_s: f64,
         early_s: f64,
@@ -46,13 +46,13 @@ pub enum Changed {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ChangeCause {
-    /// The pass was not there before.
+    /// Pass that the previous schedule did not contain.
     NewPass,
-    /// The pass is not predicted any more.
+    /// Pass that is no longer predicted.
     Gone,
-    /// The pass is left out now.
+    /// Pass that is now left out.
     LeftOut(LeftOutReason),
-    /// The schedule is worth more this way.
+    /// Higher worth of the new schedule.
     Better,
 }
 
@@ -104,7 +104,7 @@ fn is_same(a: &Entry, b: &Entry) -> bool {
         && (a.pass == b.pass || (a.start < b.end && b.start < a.end))
 }
 
-/// Half of the shortest revolution, seconds: passes of a satellite are further apart.
+/// Half of the shortest revolution, seconds: passes of one satellite are further apart.
 const HALF_REVOLUTION_S: f64 = 2_600.0;
 
 fn is_near(pass: PassKey, entry: &Entry) -> bool {

@@ -1,4 +1,4 @@
-//! When an antenna that stands somewhere joins a pass.
+//! Time at which an antenna joins a pass from its current position.
 
 use jiff::Timestamp;
 
@@ -9,27 +9,27 @@ use super::{
 };
 use crate::plan::Sample;
 
-/// How exactly the moment is found at which an antenna is there, milliseconds.
+/// Accuracy of the arrival time of an antenna, milliseconds.
 const EXACT_MS: i64 = 500;
 
-/// Rest of a pass once the antenna has slewed there.
+/// Rest of a pass after the slew of the antenna.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Joining {
-    /// When it is there.
+    /// Arrival time of the antenna.
     pub met: Timestamp,
-    /// Time that it needs to get there: its set-up and the slew, seconds.
+    /// Time that the antenna needs to get there: its set-up and the slew, seconds.
     pub needs_s: f64,
-    /// From when it could have been there, or from now where that has passed, until it is there,
-    /// seconds.
+    /// Delay of the arrival, seconds, from the earliest useful time or from now if that has passed.
     pub late_s: f64,
-    /// Seconds that count from then on.
+    /// Seconds that count after the arrival.
     pub left_s: f64,
 }
 
 impl PlannedAntenna {
-    /// When this antenna is on the pass along `samples`, which are at equal intervals, the oldest
-    /// first, if it sets out from where it stands as soon as it is free and set up. `None` if that
-    /// is not before LOS, if no way leads there, or if it is not known where it stands.
+    /// Returns when this antenna is on the pass along `samples`, which are at equal intervals, the
+    /// oldest first. The antenna sets out from its position as soon as it is free and set up.
+    /// Returns `None` if it arrives after LOS, if no path leads there, or if its position is
+    /// unknown.
     pub fn joining(&self, samples: &[Sample]) -> Option<Joining> {
         let (stands_deg, ready_ms) = (self.stands_deg?, self.ready_ms());
         let way = self.reach.rest(samples, stands_deg, (self.free_from, ready_ms))?;
@@ -43,13 +43,13 @@ impl PlannedAntenna {
         })
     }
 
-    /// When it is free and set up.
+    /// Returns the time at which the antenna is free and set up.
     pub(super) fn ready_ms(&self) -> i64 {
         ms(self.free_from) + set_up_ms(self)
     }
 
-    /// The first moment that counts at which the axes can be where `way` has them, if they set out
-    /// at `ready_ms`, and how long they turn.
+    /// Returns the first counted time at which the axes can be at the positions of `way`, and the
+    /// duration of their turn. The axes set out at `ready_ms`.
     pub(super) fn met_ms(
         &self,
         way: &Way,
@@ -61,7 +61,7 @@ impl PlannedAntenna {
             let to_deg = way.axes_deg(at_ms);
             let mut leg_ms = self.reach.straight_ms(stands_deg, to_deg);
             if ready_ms + leg_ms <= at_ms + EXACT_MS {
-                // Only now is a way searched for round what is between.
+                // Search for a path round barriers only now, because a search is slow.
                 let Some(round_ms) = self.reach.leg_ms(stands_deg, to_deg, ready_ms) else {
                     at_ms = way.next_stretch_ms(at_ms)?;
                     continue;
@@ -72,8 +72,8 @@ impl PlannedAntenna {
             if missing_ms <= EXACT_MS {
                 return Some((at_ms, leg_ms));
             }
-            // In a second the leg becomes shorter by a second at most, because `way` keeps to the
-            // rates of the axes: half of what is missing never skips the moment.
+            // In a second, the leg becomes shorter by at most a second, because `way` keeps to the
+            // rates of the axes. So half of the missing time never skips the arrival.
             at_ms = way.next_counted_ms(at_ms + missing_ms / 2)?;
         }
     }
@@ -91,7 +91,7 @@ mod tests {
 
     const AOS: Timestamp = Timestamp::UNIX_EPOCH;
 
-    /// 200 s, 2 s apart, from one direction to another.
+    /// Returns a pass of 200 s with samples 2 s apart, from one direction to another.
     fn pass(from_deg: (f64, f64), to_deg: (f64, f64)) -> Vec<Sample> {
         let sample = |step: i32| {
             let share = f64::from(step) / 100.0;
@@ -103,7 +103,7 @@ mod tests {
         (0..=100).map(sample).collect()
     }
 
-    /// A satellite that stands in the east.
+    /// Returns a satellite that stands in the east.
     fn in_the_east() -> Vec<Sample> {
         pass((90.0, 45.0), (90.0, 45.0))
     }
@@ -122,7 +122,7 @@ mod tests {
         antenna
     }
 
-    /// The antenna in a station with these keep-outs, free so many seconds after AOS.
+    /// Returns the antenna in a station with these keep-outs, free `free_s` seconds after AOS.
     fn planned(antenna: &Antenna, keep_outs: Vec<KeepOut>, free_s: f64) -> PlannedAntenna {
         let station = Station { keep_outs, ..Station::default() };
         let planned_antenna =
@@ -138,7 +138,7 @@ mod tests {
         let antenna = PlannedAntenna { stands_deg: Some(stands_deg), ..antenna.clone() };
         let Joining { met, needs_s, late_s, left_s } = antenna.joining(samples)?;
         let until_met_s = met.duration_since(antenna.free_from).as_secs_f64();
-        // Nothing between delays it but the pass itself, which may begin later.
+        // Only the pass itself, which may begin later, delays the antenna.
         assert!(needs_s <= until_met_s + 1.0, "{needs_s} {until_met_s}");
         Some((late_s.round() as i64, left_s.round() as i64))
     }
@@ -201,12 +201,13 @@ mod tests {
 
     #[test]
     fn the_wrap_on_which_the_axis_stands_is_its_way() {
-        // From 20 down through north to 300, which an axis of 0 to 450 follows only from 380.
+        // The pass turns from 20 down through north to 300, which an axis of 0 to 450 follows only
+        // from 380.
         let through_north = pass((380.0, 45.0), (300.0, 45.0));
         let overlap = planned(&dish((0.0, 450.0), 90.0), Vec::new(), 0.0);
         let (late_s, _) = join(&overlap, [380.0, 45.0], &through_north).unwrap();
         assert_eq!(late_s, 0);
-        // Backwards round the whole circle, towards the satellite that comes nearer.
+        // The axis turns backwards round the whole circle, towards the approaching satellite.
         let (late_s, _) = join(&overlap, [200.0, 45.0], &through_north).unwrap();
         assert!(late_s > 100, "{late_s}");
     }

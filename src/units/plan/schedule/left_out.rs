@@ -1,4 +1,4 @@
-//! Why a pass is left out.
+//! Reasons why a pass is left out.
 
 use super::{
     board::{Board, Fact},
@@ -25,12 +25,12 @@ impl Board<'_> {
             .map(|((candidate, _), own)| self.left_out_pass(candidate, own, solution))
             .collect();
         left.sort_by_key(|left| left.pass);
-        // This sort is stable: passes with one AOS stay in the order of their satellites.
+        // This sort is stable: passes with equal AOS stay in the order of their satellites.
         left.sort_by_key(|left| left.pass.aos);
         left
     }
 
-    /// The whole takes of each candidate.
+    /// Returns the whole takes of each candidate.
     fn wholes(&self) -> Vec<Vec<u32>> {
         let mut wholes = vec![Vec::new(); self.request.candidates.len()];
         for ((take, fact), index) in self.takes.iter().zip(&self.facts).zip(0..) {
@@ -46,7 +46,7 @@ impl Board<'_> {
         let on = |(index, antenna): (usize, &PlannedAntenna)| {
             (antenna.id, self.why_not_on(index, antenna, candidate, wholes, solution))
         };
-        // No antenna was asked about a pass that is refused from the start.
+        // A pass that is refused from the start was not judged for any antenna.
         let by_antenna: Vec<_> = if candidate.options.is_empty() {
             Vec::new()
         } else {
@@ -110,7 +110,7 @@ impl Board<'_> {
         self.takes.get(take as usize).is_some_and(|take| take.antenna as usize == antenna)
     }
 
-    /// Returns the reason that hinders one more take among `entries`.
+    /// Returns the reason that prevents one more take among `entries`.
     fn in_the_way(&self, take: u32, entries: &[u32]) -> Option<LeftOutReason> {
         let (taken_entry, _) = self.with_fact(take)?;
         let mut overlaps: Vec<(i64, Fact)> = Vec::new();
@@ -123,7 +123,7 @@ impl Board<'_> {
                 overlaps.push((common_ms, *fact));
                 continue;
             }
-            // So far apart, any leg fits.
+            // At this distance, any leg fits.
             if common_ms <= -self.legs.longest_ms(taken_entry.antenna as usize) {
                 continue;
             }
@@ -153,7 +153,8 @@ impl Board<'_> {
         Some(if has_begun { LeftOutReason::UnderWay } else { LeftOutReason::TooFar })
     }
 
-    /// `None` where no way leads from one to the other.
+    /// Returns the missing time between two takes, milliseconds; `None` if no path leads from one
+    /// to the other.
     fn missing_ms(&self, a: (u32, &Take), b: (u32, &Take)) -> Option<i64> {
         let (before, after) = if a.1.to_ms <= b.1.from_ms { (a, b) } else { (b, a) };
         let needs_ms = self.legs.needs_ms(before.0 as usize, after.0 as usize)?;
@@ -161,7 +162,8 @@ impl Board<'_> {
     }
 }
 
-/// Returns the conflict with the entry of the highest class that is in the way by the most seconds.
+/// Returns the conflict with the entry of the highest class. Among entries of one class, takes the
+/// one with the most missing time.
 fn conflict(mut found: Vec<(i64, Fact)>, more: &[(i64, Fact)]) -> Option<Conflict> {
     found.sort_by_key(|(missing_ms, fact)| (fact.class, -missing_ms));
     let (missing_ms, rival) = found.first()?;
@@ -174,7 +176,7 @@ fn conflict(mut found: Vec<(i64, Fact)>, more: &[(i64, Fact)]) -> Option<Conflic
     })
 }
 
-/// How far a pass was from being taken.
+/// Returns how far a pass was from being taken.
 fn distance(reason: &LeftOutReason) -> (u8, i64) {
     let ms = |conflict: &Conflict| (conflict.missing_s * 1000.0) as i64;
     match reason {
@@ -185,7 +187,7 @@ fn distance(reason: &LeftOutReason) -> (u8, i64) {
         LeftOutReason::TooFar | LeftOutReason::UnderWay => (4, 0),
         LeftOutReason::Refused(_) => (5, 0),
         LeftOutReason::Off(_) => (6, 0),
-        // An antenna that is excluded may well be able to take it, but that is the operator's will.
+        // An excluded antenna may be able to take the pass, but the operator excluded it.
         LeftOutReason::Impossible(_) => (7, 0),
         LeftOutReason::OtherAntennas(_) => (8, 0),
     }

@@ -1,4 +1,4 @@
-//! The slews between takes, by the real axes of each antenna.
+//! Slews between takes, by the real axes of each antenna.
 
 use std::{
     cell::{OnceCell, RefCell},
@@ -12,11 +12,11 @@ use super::{
 };
 use crate::station::BetweenPasses;
 
-/// Where the axes stand at both ends of a take, degrees as the mount counts.
+/// Axis positions at both ends of a take, degrees as the mount counts.
 pub(super) type LegEnds = [[f64; 2]; 2];
 
-/// The takes of a schedule with the ways between them. Ways round what must not be entered are
-/// searched for where they decide, once each.
+/// Takes of a schedule with the paths between them. Azel searches for a path round barriers only if
+/// it decides, and once each.
 pub(super) struct Legs<'a> {
     antennas: &'a [PlannedAntenna],
     takes: Vec<Stop>,
@@ -30,14 +30,15 @@ struct Stop {
     to_ms: i64,
     ends_deg: LegEnds,
     is_fixed: bool,
-    /// From the park position to its start, and from its end back, milliseconds; `None` where no
-    /// way leads.
+    /// Time from the park position to the start, and from the end back, milliseconds; `None` if no
+    /// path leads there.
     from_park_ms: OnceCell<Option<i64>>,
     to_park_ms: OnceCell<Option<i64>>,
 }
 
 impl<'a> Legs<'a> {
-    /// `takes` with the places of the axes at both ends, and whether they are fixed.
+    /// Creates the legs. `takes` contains the axis positions at both ends, and whether the take is
+    /// fixed.
     pub(super) fn new(
         antennas: &'a [PlannedAntenna],
         takes: impl Iterator<Item = (Take, LegEnds, bool)>,
@@ -55,7 +56,7 @@ impl<'a> Legs<'a> {
         let longest_ms = antennas.iter().enumerate().map(|(index, antenna)| {
             let own = stops.iter().filter(|stop| stop.antenna == index);
             let widest_ms = antenna.reach.widest_ms(own.flat_map(|stop| stop.ends_deg));
-            // By way of the park position, or round a barrier.
+            // The path goes through the park position, or round a barrier.
             let is_round =
                 antenna.between_passes == BetweenPasses::Park || antenna.reach.has_barriers();
             let times = if is_round { 2 } else { 1 };
@@ -65,12 +66,12 @@ impl<'a> Legs<'a> {
         Self { antennas, takes: stops, longest_ms, found: RefCell::default() }
     }
 
-    /// Least time between two takes of one antenna, with the set-up; `None` where no way leads from
-    /// one to the other within the longest time that a leg may take.
+    /// Returns the min time between two takes of one antenna, with the set-up. Returns `None` if no
+    /// path leads from one to the other within the max time of a leg.
     pub(super) fn needs_ms(&self, start: usize, end: usize) -> Option<i64> {
         let (before, after) = (self.takes.get(start)?, self.takes.get(end)?);
         let antenna = self.antennas.get(before.antenna)?;
-        // The antenna takes both already, so the leg between them cannot be refused.
+        // The antenna already takes both, so the leg between them cannot be refused.
         if before.is_fixed && after.is_fixed {
             return Some(0);
         }
@@ -79,20 +80,20 @@ impl<'a> Legs<'a> {
         Some(search_ms(antenna, before, after, max_ms)? + set_up_ms)
     }
 
-    /// How long the axes turn between two takes that follow each other, milliseconds.
+    /// Returns how long the axes turn between two consecutive takes, milliseconds.
     pub(super) fn turning_ms(&self, start: usize, end: usize) -> i64 {
         let cached = self.known_ms(start, end, i64::MAX);
         cached.or_else(|| self.slew_ms(start, end)).unwrap_or_default()
     }
 
-    /// As [`search_ms`], once for each two takes past barriers.
+    /// Does the same as [`search_ms`], but searches only once for each pair of takes past barriers.
     fn known_ms(&self, start: usize, end: usize, max_ms: i64) -> Option<i64> {
         let (before, after) = (self.takes.get(start)?, self.takes.get(end)?);
         let antenna = self.antennas.get(before.antenna)?;
         if !antenna.reach.has_barriers() {
             return search_ms(antenna, before, after, max_ms);
         }
-        // The limit is part of the key: a search that it ended early found no way.
+        // The limit is part of the key: a search that ended at the limit found no path.
         if let Some(cached) = self.found.borrow().get(&(start, end, max_ms)) {
             return *cached;
         }
@@ -101,7 +102,7 @@ impl<'a> Legs<'a> {
         found
     }
 
-    /// Returns `true` where a way leads from where the antenna stands at first to a take.
+    /// Returns `true` if a path leads from the first position of the antenna to a take.
     pub(super) fn is_in_reach(&self, end: usize) -> bool {
         let Some(take) = self.takes.get(end) else { return false };
         let antenna = self.antennas.get(take.antenna);
@@ -114,7 +115,7 @@ impl<'a> Legs<'a> {
     }
 }
 
-/// How long the axes turn from one take to another as the antenna is told to wait, if that is no
+/// Returns how long the axes turn from one take to another with the antenna's waiting rule, if no
 /// longer than `max_ms`.
 fn search_ms(antenna: &PlannedAntenna, before: &Stop, after: &Stop, max_ms: i64) -> Option<i64> {
     let by_park = || by_park_ms(antenna, before, after).filter(|ms| *ms <= max_ms);
@@ -130,8 +131,8 @@ fn search_ms(antenna: &PlannedAntenna, before: &Stop, after: &Stop, max_ms: i64)
     }
 }
 
-/// The way from one take to another that does not go by the park position, if it takes no longer
-/// than `max_ms`.
+/// Returns the time of the path from one take to another that does not use the park position, if no
+/// longer than `max_ms`.
 fn direct_ms(antenna: &PlannedAntenna, before: &Stop, after: &Stop, max_ms: i64) -> Option<i64> {
     let ([_, end_deg], [start_deg, _]) = (before.ends_deg, after.ends_deg);
     antenna.reach.leg_within_ms(end_deg, start_deg, before.to_ms, max_ms)
@@ -161,7 +162,7 @@ impl Slews for Legs<'_> {
         let [start_deg, _] = take.ends_deg;
         let free_ms = ms(antenna.free_from);
         let gap_ms = take.from_ms - free_ms - set_up_ms(antenna);
-        // It is unknown where the antenna stands, so only the set-up can be asked for.
+        // The position of the antenna is unknown, so require only the set-up.
         let Some(stands_deg) = antenna.stands_deg else { return (gap_ms >= 0).then_some(0) };
         antenna.reach.leg_within_ms(stands_deg, start_deg, free_ms, gap_ms)
     }
@@ -176,7 +177,8 @@ impl Slews for Legs<'_> {
         let longest_ms = self.longest_ms(before.antenna) - set_up_ms(antenna);
         let parks = antenna.between_passes == BetweenPasses::Park;
         if gap_ms >= longest_ms && antenna.reach.has_barriers() && !parks {
-            // A way leads there in time. Its length only breaks ties, which a search is not worth.
+            // A path leads there in time. Its length only breaks ties, which does not justify a
+            // search.
             let [[_, end_deg], [start_deg, _]] = [before.ends_deg, after.ends_deg];
             return Some(antenna.reach.straight_ms(end_deg, start_deg));
         }

@@ -1,4 +1,4 @@
-//! Inputs of a schedule, as a station has them: its antennas, limits, choices and rules.
+//! Inputs of a schedule from a station: its antennas, limits, choices and rules.
 
 use jiff::Timestamp;
 
@@ -9,11 +9,11 @@ use crate::{
     station::{Antenna, AntennaId, RuleAction, RuleSubject, Scheduling, Station, SunIs},
 };
 
-/// A pass that is taken in part starts late, or ends early, by a multiple of this, seconds.
+/// Step of the late start or early end of a partial pass, seconds.
 const STEP_S: f64 = 15.0;
 
 impl PlannedAntenna {
-    /// An antenna of a station that is free from `free_from` on, wherever it stands then.
+    /// Returns an antenna of a station that is free from `free_from` on, at an unknown position.
     pub fn from_station(station: &Station, antenna: &Antenna, free_from: Timestamp) -> Self {
         Self {
             id: antenna.id,
@@ -28,7 +28,7 @@ impl PlannedAntenna {
 }
 
 impl Candidate {
-    /// Judges a pass of a satellite by what the station file says of it.
+    /// Judges a pass of a satellite by the settings of the station file.
     pub fn from_station(
         station: &Station,
         elements: &Elements,
@@ -52,7 +52,7 @@ impl Candidate {
 }
 
 impl Partial {
-    /// How a station takes passes in part; `None` where it takes them whole.
+    /// Returns how a station takes partial passes; `None` if it takes only whole ones.
     pub fn from_scheduling(scheduling: &Scheduling) -> Option<Self> {
         let partly = scheduling.partly?;
         Some(Self {
@@ -76,8 +76,8 @@ fn by_rule(
     station.rules.get(place).map(|rule| rule.action)
 }
 
-/// Place of the first automation rule that fits a satellite and an antenna at a time, where the
-/// Sun stands as given.
+/// Returns the index of the first automation rule that fits a satellite and an antenna at a time
+/// with this state of the Sun.
 pub fn deciding_rule(
     station: &Station,
     satellite: u32,
@@ -111,7 +111,7 @@ mod tests {
 
     const ISS: u32 = 25_544;
 
-    /// The first pass of the ISS, judged at a station that was changed like this.
+    /// Returns the first pass of the ISS, judged at a station after `change`.
     fn judged(change: impl FnOnce(&mut Station)) -> (Candidate, Vec<AntennaId>) {
         let mut station = Station::demo(&DemoAddresses::default());
         change(&mut station);

@@ -10,58 +10,59 @@ use super::{
 };
 use crate::{astro::time::seconds_between, station::AntennaId};
 
-/// The passes that all antennas will take, and those that none will.
+/// Passes that all antennas will take, and passes that none will take.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Schedule {
-    /// By start, then by antenna.
+    /// Entries by start, then by antenna.
     pub entries: Vec<Entry>,
-    /// By AOS.
+    /// Passes left out, by AOS.
     pub left_out: Vec<LeftOut>,
-    /// Worth of the entries, class by class, and how far it is proved.
+    /// Worth of the entries, class by class, and its proof.
     pub worth: Vec<ClassWorth>,
-    /// Seconds that the antennas slew.
+    /// Total slew time of the antennas, seconds.
     pub slew_s: f64,
 }
 
-/// A pass that an antenna will take.
+/// Pass that an antenna will take.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Entry {
     pub pass: PassKey,
     pub antenna: AntennaId,
     pub class: Class,
-    /// The axes stand at the start of the track.
+    /// Start of the track, with the axes in place.
     #[serde(rename = "from")]
     pub start: Timestamp,
     #[serde(rename = "to")]
     pub end: Timestamp,
-    /// Seconds by which it starts late and ends early of what the antenna could take.
+    /// Seconds by which the entry starts late and ends early, compared with the possible take.
     pub late_s: f64,
     pub early_s: f64,
-    /// Seconds that count.
+    /// Counted time of the entry, seconds.
     pub counted_s: f64,
-    /// Worth that it adds to its class.
+    /// Worth that the entry adds to its class.
     pub worth: i64,
     /// Part of the pass that the mount loses.
     pub lost: Option<Lost>,
-    /// Where the axes stand at the start and at the end, degrees as the mount counts: they tell
-    /// the turn of the azimuth and the side of the zenith.
+    /// Axis positions at the start and at the end, degrees as the mount counts: they include the
+    /// turn of the azimuth and the side of the zenith.
     pub axes_deg: [[f64; 2]; 2],
-    /// The entry before on the same antenna.
+    /// Previous entry on the same antenna.
     pub after: Option<PassKey>,
-    /// Time that the axes turn before the entry, by way of the park position where they go there.
+    /// Time that the axes turn before the entry, through the park position if they go there,
+    /// seconds.
     pub slew_s: f64,
     pub set_up_s: f64,
-    /// Time that is left between the entry before and this one; `None` for a first entry of which
-    /// nothing is known before. See [`Self::spare_at`].
+    /// Spare time between the previous entry and this one, seconds; `None` for a first entry
+    /// without known earlier positions. See [`Self::spare_at`].
     pub spare_s: Option<f64>,
-    /// The antenna that takes the other part of a pass that is handed over.
+    /// Antenna that takes the other part of a pass that is handed over.
     pub shared_with: Option<AntennaId>,
     pub is_fixed: bool,
 }
 
 impl Entry {
-    /// Returns the spare time that is left at `now`, some time after the schedule was made. `None`
-    /// from the start of the entry on, and for an entry without a spare time.
+    /// Returns the remaining spare time at `now`, after the schedule was made, seconds. Returns
+    /// `None` from the start of the entry on, and for an entry without a spare time.
     pub fn spare_at(&self, now: Timestamp) -> Option<f64> {
         let until_s = seconds_between(now, self.start);
         let left_s = until_s - self.slew_s - self.set_up_s;
@@ -69,36 +70,36 @@ impl Entry {
     }
 }
 
-/// A pass that no antenna will take.
+/// Pass that no antenna will take.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LeftOut {
     pub pass: PassKey,
     #[serde(rename = "why")]
     pub reason: LeftOutReason,
-    /// Reason against it on each antenna.
+    /// Reason against the pass on each antenna.
     pub by_antenna: Vec<(AntennaId, LeftOutReason)>,
 }
 
-/// Why a pass is left out.
+/// Reason why a pass is left out.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LeftOutReason {
     Refused(Refusal),
     Impossible(Impossible),
     Off(AntennaOff),
-    /// The rules of the satellite leave out this antenna and allow only these.
+    /// Exclusion of this antenna by the rules of the satellite, which allow only these antennas.
     OtherAntennas(Vec<AntennaId>),
-    /// The antenna takes other passes at this time.
+    /// Overlap with other passes of the antenna.
     Overlaps(Conflict),
-    /// The antenna cannot be there in time after a pass, or in time for the next one.
+    /// Missing slew time after another pass, or before the next one.
     SlewTooShort(Conflict),
-    /// The antenna cannot be there in time from where it stands.
+    /// Missing slew time from the current position of the antenna.
     TooFar,
-    /// The pass has begun, and the antenna does not track it.
+    /// Current pass that the antenna does not track.
     UnderWay,
-    /// As many passes of the satellite are taken on this day as may be.
+    /// Reached max number of passes of the satellite on this day.
     MaxPerDay(u32),
-    /// Beside the schedule it would be possible; the better schedule was not found.
+    /// Possible addition to the schedule that the search did not find.
     NotFound,
 }
 
@@ -108,9 +109,9 @@ pub struct Conflict {
     #[serde(rename = "with")]
     pub pass: PassKey,
     pub class: Class,
-    /// Seconds that are missing.
+    /// Missing time between the entry and the pass, seconds.
     pub missing_s: f64,
-    /// Further entries that are in the way.
+    /// Further entries in the way.
     pub others: Vec<PassKey>,
 }
 
@@ -118,23 +119,23 @@ pub struct Conflict {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ClassWorth {
     pub class: Class,
-    /// Milliseconds, or passes where the rule counts them.
+    /// Milliseconds, or passes if the rule counts them.
     pub worth: i64,
     pub proof: Proof,
 }
 
-/// How good a class is known to be.
+/// Proof of the quality of a class.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Proof {
-    /// The classes before are the best, and no schedule that has them is worth more.
+    /// Proved best: the previous classes are the best, and no schedule with them is worth more.
     Best,
-    /// No schedule that is worth as much in the classes before is worth more than this.
+    /// Upper bound for schedules that are worth the same in the previous classes.
     AtMost(i64),
 }
 
 impl Schedule {
-    /// The entries of a pass, two where it is handed over.
+    /// Returns the entries of a pass, two if it is handed over.
     pub fn entries_of(&self, pass: PassKey) -> impl Iterator<Item = &Entry> {
         self.entries.iter().filter(move |entry| entry.pass == pass)
     }

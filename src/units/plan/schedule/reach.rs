@@ -1,5 +1,5 @@
-//! Passes that one antenna can take: the positions of its axes along a pass, and the time that they
-//! take from one place to another.
+//! Passes that one antenna can take: the positions of its axes along a pass, and the slew times
+//! between places.
 
 mod travel;
 
@@ -25,52 +25,53 @@ use crate::{
     station::{Antenna, ControllerSpec, Mount, Station},
 };
 
-/// Ways that begin less than this apart are one, degrees.
+/// Max distance between the beginnings of equal paths, degrees.
 const SAME_DEG: f64 = 0.5;
-/// A whole turn of an azimuth axis, degrees.
+/// Whole turn of an azimuth axis, degrees.
 const TURN_DEG: f64 = 360.0;
-/// Share of the rate of an axis below which it keeps up with few samples of a pass.
+/// Share of its rate below which an axis keeps up with few samples of a pass.
 const SLOW: f64 = 0.4;
-/// An axis of an X/Y mount at the zenith, degrees as the mount counts.
+/// Position of an axis of an X/Y mount at the zenith, degrees as the mount counts.
 const ZENITH_DEG: f64 = 90.0;
 /// Distance of the open sky from the ends of the travel, degrees.
 const OFF_ENDS_DEG: f64 = 5.0;
-/// Meanwhile the Sun moves less than [`FINEST_DEG`].
+/// Time in which the Sun moves less than [`FINEST_DEG`].
 const SUN_STAYS_MS: i64 = 10_000;
-/// Places that are looked at on a way to the open sky.
+/// Number of checked places on a path to the open sky.
 const STEPS: u32 = 18;
-/// Angle from the direction in which the first axis turns on the spot (the zenith, or an end of
-/// the lower axis of an X/Y mount) from which a pass may be judged by few samples, degrees.
+/// Min angle from the direction in which the first axis turns on the spot, degrees: the zenith, or
+/// an end of the lower axis of an X/Y mount. Beyond this angle, few samples suffice to judge a
+/// pass.
 const CLEAR_DEG: f64 = 5.0;
 
-/// Mount, rates, limits and bounds of an antenna, as passes and slews need them.
+/// Mount, rates, limits and bounds of an antenna, for passes and slews.
 #[derive(Debug, Clone)]
 pub struct Reach {
     drives: Drives,
-    /// All of the travel, which a slew may use where a track keeps away from its ends.
+    /// Whole travel: a slew may use the ends, but a track keeps away from them.
     slews: AxisLimits,
     bounds: Bounds,
-    /// Model that program track applies; `None` where the axes read the direction that they point
-    /// to, and for a unit that follows a pass by itself.
+    /// Model that program track applies; `None` if the axes read the true direction, and for a unit
+    /// that follows a pass on its own.
     model: Option<PointingModel>,
     half_beam: Angle,
     park: AzEl,
     park_deg: [f64; 2],
-    /// Its unit follows a pass by itself, and refuses one that leads through a keep-out.
+    /// `true` for a unit that follows a pass on its own, and refuses a pass through a keep-out.
     on_board: bool,
     spec: &'static ControllerSpec,
 }
 
-/// One way along a pass.
+/// Single path along a pass.
 struct Judged {
-    /// `None` where nothing counts.
+    /// Usable path; `None` if no second counts.
     way: Option<Way>,
     entered: Option<Barrier>,
     lost_at: Option<Loss>,
 }
 
 impl Reach {
-    /// The reach of an antenna of `station`, with the rates that its axes were measured to have.
+    /// Returns the reach of an antenna of `station`, with the measured rates of its axes.
     pub fn from_station(
         station: &Station,
         antenna: &Antenna,
@@ -117,26 +118,27 @@ impl Reach {
         deviation.degrees() < SAME_DEG && self.bounds.at_time(time).forbids(reached).is_none()
     }
 
-    /// A direction outside of all barriers at `time`; `None` where none is found.
+    /// Returns a direction outside of all barriers at `time`; `None` if none is found.
     pub fn open_sky(&self, time: Timestamp) -> Option<AzEl> {
         self.open_sky_deg(&self.bounds.at_time(time))
             .map(|axes_deg| self.bounds.direction(axes_deg))
     }
 
-    /// Where the axes stand at the park position, or as near to it as they travel, degrees as the
-    /// mount counts.
+    /// Returns the axis positions at the park position, or as near to it as they travel, degrees as
+    /// the mount counts.
     pub fn park_deg(&self) -> [f64; 2] {
         self.park_deg
     }
 
-    /// Where the antenna points with its axes there; an antenna without elevation by azimuth alone.
+    /// Returns the direction of the antenna at these axis positions; an antenna without elevation
+    /// has only an azimuth.
     pub fn pointing(&self, axes_deg: [f64; 2]) -> Pointing {
         let direction = self.bounds.direction(axes_deg);
         let elevation = Some(direction.elevation).filter(|_| self.drives.has_elevation);
         Pointing { azimuth: Some(direction.azimuth), elevation }
     }
 
-    /// Time from one place of the axes to another along the straight way, seconds.
+    /// Returns the time between two axis positions along the straight path, seconds.
     pub fn straight_s(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> f64 {
         self.straight_ms(from_deg, to_deg) as f64 / 1000.0
     }
@@ -149,9 +151,9 @@ impl Reach {
         Angle::from_degrees(self.drives.limits.minimum_elevation_deg)
     }
 
-    /// How program track takes what is left at `now` of a pass along `samples`, which are at equal
-    /// intervals, with axes that stand there and may turn from `ready_ms` on; `None` where nothing
-    /// counts.
+    /// Returns how program track takes the rest at `now` of a pass along `samples`, which are at
+    /// equal intervals. The axes stand at `stands_deg` and may turn from `ready_ms` on. Returns
+    /// `None` if no second counts.
     pub(super) fn rest(
         &self,
         samples: &[Sample],
@@ -177,7 +179,7 @@ impl Reach {
         way.filter(|_| entered.is_none() || !self.on_board)
     }
 
-    /// The sample as the axes read it in program track.
+    /// Converts the sample to the axis reading in program track.
     fn as_read(&self, sample: Sample) -> Sample {
         let reading = self.model.and_then(|model| model.reading(sample.direction));
         Sample { direction: reading.unwrap_or(sample.direction), ..sample }
@@ -191,12 +193,12 @@ impl Reach {
         Cow::Owned(Samples { list, ..*samples })
     }
 
-    /// How the antenna can take what is in sight.
+    /// Judges how the antenna can take the visible part of the pass.
     pub fn judge(&self, sight: &mut Sight<'_>) -> Verdict {
         if sight.name().is_some_and(|name| !self.spec.takes_satellite(name)) {
             return Verdict::Impossible(Impossible::Name);
         }
-        // A unit that tracks by itself holds its minimum without refraction.
+        // A unit that tracks on its own applies its minimum without refraction.
         let lowest = self.min_elevation();
         let lowest = if self.on_board { sight.appearing_at(lowest) } else { lowest };
         let Some(span) = sight.above(lowest) else {
@@ -218,8 +220,8 @@ impl Reach {
         self.ways(&self.all_as_read(sight.fine(span, part)), &clear)
     }
 
-    /// The ways of a pass that the axes follow without effort; `None` for one that has to be
-    /// looked at more closely.
+    /// Returns the paths of a pass that the axes follow easily; `None` for a pass that needs a
+    /// closer check.
     fn easy_ways(&self, samples: &Samples, clear: &[Span]) -> Option<Vec<Way>> {
         // A keep-out may lie between two of the few samples.
         if self.has_barriers() {
@@ -244,7 +246,7 @@ impl Reach {
         })
     }
 
-    /// Returns `true` if the first axis need not turn on the spot with the second one here.
+    /// Returns `true` if the first axis need not turn on the spot at this angle of the second axis.
     fn is_clear(&self, second_deg: f64) -> bool {
         let to_pole_deg = match self.drives.mount {
             Mount::AzEl { .. } => (second_deg - 90.0).abs(),
@@ -275,8 +277,8 @@ impl Reach {
         Verdict::Possible(ways)
     }
 
-    /// Returns the time that counts along one way, the first barrier on it, and the first loss of
-    /// the satellite.
+    /// Returns the counted time along one path, the first barrier on it, and the first loss of the
+    /// satellite.
     fn judged(&self, samples: &Samples, planned: Planned, clear: &[Span]) -> Judged {
         let Planned { axes_deg, slews, .. } = planned;
         let [first, second] = &axes_deg;
@@ -287,7 +289,7 @@ impl Reach {
         let [is_late, is_early] = samples.leave_out(clear);
         let loss_beyond = |index| Loss::beyond_travel(self.drives.mount, &samples.list, index);
         let mut lost_at = is_late.then(|| loss_beyond(0));
-        // The Sun stays where it is for so long.
+        // Reuse the bounds while the Sun hardly moves.
         let mut bounds = None;
         // As in trackability, the time between two samples counts only if both are in the beam.
         let mut before: Option<Timestamp> = None;
@@ -329,7 +331,7 @@ impl Reach {
         Judged { way, entered, lost_at }
     }
 
-    /// Returns `true` if ways lead from the open sky to the start, and back from the end.
+    /// Returns `true` if paths lead from the open sky to the start, and back from the end.
     fn is_within_reach(&self, way: &Way) -> bool {
         if !self.has_barriers() {
             return true;
@@ -345,14 +347,15 @@ impl Reach {
     fn is_way(&self, place_deg: [f64; 2], open_deg: [f64; 2], now: &BoundsAt<'_>) -> bool {
         let sweep = Sweep::new(place_deg, open_deg);
         now.blocks(sweep, Sweep::at_position(place_deg)).is_none() || {
-            // From the place that may be shut in, where a search ends soon if it is.
+            // Start at the place that may be enclosed, because a search from there ends soon.
             detour::leads(now, &self.slews, place_deg, open_deg)
         }
     }
 
-    /// The first place outside of all barriers on the way from the park position, which may itself
-    /// be inside one, up to the zenith, and round from there; `None` where there is none. It is off
-    /// the ends of the travel, where some units report no angle.
+    /// Returns the first place outside of all barriers on a path from the park position to the
+    /// zenith, and round from there. Returns `None` without such a place. The park position may
+    /// itself be inside a barrier. The place is off the ends of the travel, where some units report
+    /// no angle.
     fn open_sky_deg(&self, now: &BoundsAt<'_>) -> Option<[f64; 2]> {
         let ends = self.park_deg.into_iter().zip(self.slews.travel_deg);
         let mut off_ends = ends.map(|(at_deg, (min_deg, max_deg))| {
@@ -372,8 +375,8 @@ impl Reach {
         up.chain(round).find(|place| now.has_room(*place, room_deg))
     }
 
-    /// Where an antenna whose azimuth axis slews at `slews` loses the satellite at `samples[index]`,
-    /// the first that is lost.
+    /// Returns the kind of loss at `samples[index]`, the first lost sample, for an antenna whose
+    /// azimuth axis slews at `slews`.
     fn loss_at(&self, samples: &[Sample], index: usize, slews: &[Timestamp]) -> Loss {
         let Some(sample) = samples.get(index) else { return Loss::OutOfReach };
         match self.drives.mount {
@@ -393,8 +396,8 @@ impl Reach {
         }
     }
 
-    /// The positions of both axes along `samples`, one list for each turn on which the azimuth
-    /// axis can begin.
+    /// Returns the positions of both axes along `samples`, one list for each turn on which the
+    /// azimuth axis can begin.
     fn planned(&self, samples: &Samples) -> Vec<Planned> {
         let mut found: Vec<Planned> = Vec::new();
         for start in self.starts(samples.list.first()) {
@@ -430,7 +433,7 @@ impl Reach {
             .take_while(|axis_deg| *axis_deg <= to_deg)
             .map(|axis_deg| Start {
                 axes_deg: [Some(axis_deg), None],
-                // The slews judge later if the axis can be there in time.
+                // The slews later judge whether the axis can arrive in time.
                 lead_s: f64::MAX,
                 sets_out: false,
             })
@@ -444,8 +447,8 @@ impl Reach {
                 (points.azimuth - direction.azimuth).wrapped_180().abs(),
                 (points.elevation - direction.elevation).abs(),
             ];
-            // No direction is farther away than both differences together, nor nearer than that of
-            // the elevations.
+            // No direction is further away than the sum of both differences, or nearer than the
+            // difference of the elevations.
             if azimuth + elevation <= self.half_beam || elevation > self.half_beam {
                 return elevation <= self.half_beam;
             }
@@ -456,10 +459,10 @@ impl Reach {
         deviation <= self.half_beam
     }
 
-    /// The longest leg between any two of these places, without keep-outs, milliseconds.
+    /// Returns the longest leg between any two of these places, without keep-outs, milliseconds.
     pub(super) fn widest_ms(&self, places: impl Iterator<Item = [f64; 2]>) -> i64 {
         let none = (f64::INFINITY, f64::NEG_INFINITY);
-        // Round a barrier it may go anywhere.
+        // Round a barrier, the axes may go anywhere.
         let [(a, b), (c, d)] = self.slews.travel_deg;
         let corners = self.has_barriers().then_some([[a, c], [b, d]]);
         let corners = corners.into_iter().flatten();
@@ -475,26 +478,27 @@ impl Reach {
         }
     }
 
-    /// Time from one place of the axes to another along the straight way, milliseconds.
+    /// Returns the time between two axis positions along the straight path, milliseconds.
     pub(super) fn straight_ms(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> i64 {
         let second = |axes: [f64; 2]| if self.drives.has_elevation { axes } else { [axes[0], 0.0] };
         (self.slews.seconds(second(from_deg), second(to_deg)) * 1000.0).ceil() as i64
     }
 
-    /// Time from one place to another if one axis turns after the other, milliseconds.
+    /// Returns the time between two places if one axis turns after the other, milliseconds.
     fn by_corner_ms(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> i64 {
         let corner_deg = [to_deg[0], from_deg[1]];
         self.straight_ms(from_deg, corner_deg) + self.straight_ms(corner_deg, to_deg)
     }
 
     /// Returns `true` if an X/Y mount may dip below its minimum elevation while both axes turn. The
-    /// sine of the elevation is the product of the cosines of both axes from the zenith: it is
-    /// least in a corner, and in one of the two corners no less than at one of the ends.
+    /// sine of the elevation is the product of the cosines of both axes from the zenith. This
+    /// product is smallest in a corner; in one of the two corners, it is at least as large as at
+    /// one of the ends.
     fn may_dip(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> bool {
         let Mount::Xy { .. } = self.drives.mount else { return false };
         let [start, last] = [from_deg, to_deg].map(|axes| axes.map(|deg| (deg - ZENITH_DEG).abs()));
-        // In one corner, each axis is as far from the zenith as at the farther end: where that is
-        // one end for both axes, it is no corner.
+        // In one corner, each axis is as far from the zenith as at its further end. If that is the
+        // same end for both axes, the corner is that end.
         if (start[0] >= last[0]) == (start[1] >= last[1]) {
             return false;
         }
@@ -509,13 +513,14 @@ impl Reach {
         (end.asin() - corner.asin()).to_degrees() > along_deg
     }
 
-    /// Time from one place of the axes to another at `at_ms`, round what must not be entered;
-    /// `None` where no way leads.
+    /// Returns the time between two axis positions at `at_ms`, round barriers; `None` if no path
+    /// leads there.
     pub(super) fn leg_ms(&self, from_deg: [f64; 2], to_deg: [f64; 2], at_ms: i64) -> Option<i64> {
         self.leg_within_ms(from_deg, to_deg, at_ms, i64::MAX)
     }
 
-    /// As [`Self::leg_ms`]; also `None` for a leg that takes longer than `max_ms`.
+    /// Does the same as [`Self::leg_ms`]; also returns `None` for a leg that takes longer than
+    /// `max_ms`.
     pub(super) fn leg_within_ms(
         &self,
         from_deg: [f64; 2],
@@ -524,7 +529,7 @@ impl Reach {
         max_ms: i64,
     ) -> Option<i64> {
         let straight_ms = self.straight_ms(from_deg, to_deg);
-        // A search costs more than all else.
+        // A search costs more than all other steps.
         if straight_ms > max_ms {
             return None;
         }
@@ -558,7 +563,7 @@ impl Reach {
     }
 }
 
-/// Places on a straight way of the axes.
+/// Yields places on a straight path of the axes.
 fn along(from_deg: [f64; 2], to_deg: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
     (0..=STEPS).map(move |step| {
         let share = f64::from(step) / f64::from(STEPS);

@@ -10,14 +10,14 @@ use crate::{
     station::{AntennaId, BetweenPasses, ChooseBy, Light, PassLimits, Priority, RuleAction, Take},
 };
 
-/// A pass by the catalog number of its satellite and the time of AOS.
+/// Key of a pass: the catalog number of its satellite and the time of AOS.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct PassKey {
     pub satellite: u32,
     pub aos: Timestamp,
 }
 
-/// A rule of a satellite that leaves out a pass.
+/// Rule of a satellite that leaves out a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rule {
@@ -26,23 +26,23 @@ pub enum Rule {
     Light(Light),
 }
 
-/// Why no antenna may take a pass.
+/// Reason why no antenna may take a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Refusal {
     Never,
-    /// Its greatest elevation is below the elevation floor.
+    /// Maximum elevation below the elevation floor.
     BelowFloor {
         floor_deg: f64,
     },
-    /// The elements are older than they may be.
+    /// Elements beyond their max age.
     OldElements {
         age_s: f64,
     },
     Rule(Rule),
 }
 
-/// Why an antenna takes no passes.
+/// Reason why an antenna takes no passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum AntennaOff {
@@ -50,23 +50,23 @@ pub enum AntennaOff {
     LockedOut,
 }
 
-/// An antenna to plan for.
+/// Antenna for which the schedule plans passes.
 #[derive(Debug, Clone)]
 pub struct PlannedAntenna {
     pub id: AntennaId,
     pub reach: Reach,
-    /// Time that its unit needs before each pass besides the slew, such as to load it and read it
-    /// back, seconds.
+    /// Time that its unit needs before each pass besides the slew, seconds, such as to load the
+    /// pass and read it back.
     pub set_up_s: f64,
     pub between_passes: BetweenPasses,
-    /// From when on it is free.
+    /// Time from which the antenna is free.
     pub free_from: Timestamp,
-    /// Where its axes stand then, degrees as the mount counts; `None` if unknown.
+    /// Axis positions at that time, degrees as the mount counts; `None` if unknown.
     pub stands_deg: Option<[f64; 2]>,
     pub off_reason: Option<AntennaOff>,
 }
 
-/// A pass that may be taken.
+/// Pass that the schedule may take.
 #[derive(Debug, Clone)]
 pub struct Candidate {
     pub key: PassKey,
@@ -85,7 +85,7 @@ pub struct Candidate {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Choice {
     Judged(Verdict),
-    /// The rules of the satellite leave out this antenna.
+    /// Exclusion of this antenna by the rules of the satellite.
     AgainstRule,
 }
 
@@ -95,7 +95,7 @@ pub struct Common<'a> {
     pub site: Site,
     pub floor: Angle,
     pub antennas: &'a [PlannedAntenna],
-    /// Greatest age of elements at AOS, seconds.
+    /// Max age of elements at AOS, seconds.
     pub max_age_s: Option<f64>,
 }
 
@@ -105,7 +105,7 @@ pub struct PassPolicy<'a> {
     pub priority: Priority,
     pub take: Option<Take>,
     pub limits: &'a PassLimits,
-    /// Returns the action of the automation rules for the pass on an antenna.
+    /// Action of the automation rules for the pass on an antenna.
     pub by_rule: &'a dyn Fn(AntennaId) -> Option<RuleAction>,
 }
 
@@ -138,7 +138,8 @@ impl Candidate {
             Some(RuleAction::Take) => true,
             Some(RuleAction::Leave | RuleAction::Park) => false,
             None => {
-                // Also where the pass is always taken: an antenna may be unable to receive it.
+                // This also applies if the pass is always taken: an antenna may be unable to
+                // receive it.
                 let antennas = limits.antennas.as_ref();
                 let is_chosen = antennas.is_none_or(|some| some.contains(&antenna.id));
                 is_chosen && broken.is_none()
@@ -153,7 +154,7 @@ impl Candidate {
             (antenna.id, choice)
         };
         let options = match refusal {
-            // No antenna can change these refusals, and judging costs time.
+            // No antenna can change these refusals, and a judgement costs time.
             Some(Refusal::Never | Refusal::BelowFloor { .. }) => Vec::new(),
             _ => common.antennas.iter().map(judged).collect(),
         };
@@ -171,7 +172,7 @@ impl Candidate {
     }
 }
 
-/// The limit that leaves out `pass`.
+/// Returns the limit that leaves out `pass`.
 fn broken(limits: &PassLimits, pass: &Pass, propagator: &Propagator, site: Site) -> Option<Rule> {
     let too_low = limits.min_max_elevation_deg;
     if let Some(degrees) = too_low.filter(|deg| pass.max_elevation().degrees() < *deg) {
@@ -190,37 +191,37 @@ fn broken(limits: &PassLimits, pass: &Pass, propagator: &Propagator, site: Site)
     limits.light.filter(|light| !is_right(light)).map(Rule::Light)
 }
 
-/// How much of a pass has to remain where it is taken in part.
+/// Required rest of a partial pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Partial {
-    /// Share of the seconds that count, 0 to 1.
+    /// Min share of the seconds that count, 0 to 1.
     pub min_share: f64,
     pub min_s: f64,
-    /// A start is late, and an end early, by a multiple of this.
+    /// Step of a late start or early end, seconds.
     pub step_s: f64,
-    /// A pass may be handed from one antenna to another. Each part has to be long enough.
+    /// `true` if one antenna may hand a pass over to another. Each part must be long enough.
     pub hand_over: bool,
 }
 
-/// Least gain for which an entry of the previous schedule is replaced.
+/// Min gain for which an entry of the previous schedule is replaced.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Steadiness {
-    /// Per cent of the worth of the entry that is replaced.
+    /// Gain in percent of the worth of the replaced entry.
     pub percent: u32,
-    /// Added to that, seconds.
+    /// Additional gain, seconds.
     pub seconds: u32,
 }
 
-/// All that a schedule follows from.
+/// Inputs that determine a schedule.
 #[derive(Debug, Clone)]
 pub struct Request<'a> {
     pub antennas: &'a [PlannedAntenna],
     pub candidates: &'a [Candidate],
     pub choose_by: ChooseBy,
-    /// `None` where passes are taken as a whole.
+    /// Settings for partial passes; `None` if the schedule takes only whole passes.
     pub partial: Option<Partial>,
     pub previous: Option<&'a Schedule>,
     pub steadiness: Steadiness,
-    /// Entries that antennas are taking.
+    /// Entries that antennas are currently taking.
     pub fixed: &'a [Entry],
 }

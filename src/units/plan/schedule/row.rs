@@ -1,4 +1,4 @@
-//! Worth of a schedule: one number a class, compared from the first class on.
+//! Worth of a schedule: one number per class, compared from the first class on.
 
 use std::{
     iter::Sum,
@@ -9,42 +9,42 @@ use serde::{Deserialize, Serialize};
 
 use crate::station::{ChooseBy, Priority};
 
-/// A class of the row.
+/// Class of a number in the row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Class {
-    /// Entries that cannot be changed any more.
+    /// Entries that can no longer change.
     Fixed,
     /// Passes that the operator has set to always.
     Always,
-    /// Passes of satellites of this priority.
+    /// Passes of satellites with this priority.
     Priority(Priority),
-    /// All other passes, where the rule does not look at priorities.
+    /// All other passes, if the rule ignores priorities.
     All,
     /// Entries of the previous schedule.
     Kept,
 }
 
-/// One number a class, then the milliseconds that count, then the slews and the times of AOS with a
-/// minus. The first number in which two rows differ decides which row is greater.
+/// Numbers of the classes, then the counted milliseconds, then the negated slews and times of AOS.
+/// The first different number decides which of two rows is greater.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub(super) struct Row([i64; Self::LEN]);
 
 impl Row {
     pub(super) const ZERO: Self = Self([0; Self::LEN]);
-    /// Number of classes; what comes after them breaks ties.
+    /// Number of classes; later numbers break ties.
     pub(super) const CLASSES: usize = 8;
     const LEN: usize = Self::CLASSES + 3;
     const COUNTED: usize = Self::CLASSES;
     const SLEW: usize = Self::CLASSES + 1;
     const AOS: usize = Self::CLASSES + 2;
 
-    /// A row with one number.
+    /// Returns a row with only this number in `class`.
     pub(super) fn new(class: Class, number: i64) -> Self {
         Self::single(class.index(), number)
     }
 
-    /// A row with one number, by the index of its class.
+    /// Returns a row with one number, by the index of its class.
     pub(super) fn single(class: usize, number: i64) -> Self {
         let mut row = Self::ZERO;
         if let Some(cell) = row.0.get_mut(class) {
@@ -53,7 +53,7 @@ impl Row {
         row
     }
 
-    /// A pass counts so long, which tells apart what is worth the same.
+    /// Adds the counted time, which breaks ties between equal worths, milliseconds.
     pub(super) fn counting(self, counted_ms: i64) -> Self {
         self.with_number(Self::COUNTED, counted_ms)
     }
@@ -76,24 +76,24 @@ impl Row {
         self.0.get(class).copied().unwrap_or_default()
     }
 
-    /// The numbers of the classes, without what breaks ties.
+    /// Returns the numbers of the classes, without the tie-breakers.
     #[cfg(test)]
     pub(super) fn classes(&self) -> &[i64] {
         self.0.split_at(Self::CLASSES).0
     }
 
-    /// The numbers that no slew changes, but for the last one.
+    /// Returns the numbers that no slew changes, except for the last one.
     pub(super) fn before_slews(&self) -> &[i64] {
         self.0.split_at(Self::SLEW).0
     }
 
-    /// Index of the first class with a number, or [`Self::CLASSES`].
+    /// Returns the index of the first class with a number, or [`Self::CLASSES`].
     pub(super) fn first_class(&self) -> usize {
         let mut classes = self.0.iter().take(Self::CLASSES);
         classes.position(|number| *number != 0).unwrap_or(Self::CLASSES)
     }
 
-    /// The row with another number in the cell of a class.
+    /// Returns the row with another number in the cell of a class.
     pub(super) fn with_number(mut self, cell: usize, number: i64) -> Self {
         if let Some(cell) = self.0.get_mut(cell) {
             *cell = number;
@@ -103,7 +103,7 @@ impl Row {
 }
 
 impl Class {
-    /// The class of a pass that is taken by its worth.
+    /// Returns the class of a pass that is taken by its worth.
     pub(super) fn by_plan(choose_by: ChooseBy, priority: Priority) -> Self {
         match choose_by {
             ChooseBy::Elevation | ChooseBy::Duration => Self::Priority(priority),
@@ -111,7 +111,7 @@ impl Class {
         }
     }
 
-    /// The classes that the operator sees, in the order of the row.
+    /// Returns the classes that the operator sees, in the order of the row.
     pub(super) fn shown(choose_by: ChooseBy) -> Vec<Self> {
         let by_plan = |priority| Self::by_plan(choose_by, priority);
         let mut classes = vec![Self::Always];
@@ -124,7 +124,8 @@ impl Class {
         match self {
             Self::Fixed => 0,
             Self::Always => 1,
-            // The place of the first priority, because no rule uses priorities and `All` together.
+            // `All` takes the place of the first priority, because no rule uses priorities and
+            // `All` together.
             Self::All => 2,
             Self::Priority(priority) => 1 + usize::from(priority.number()),
             Self::Kept => Row::CLASSES - 1,

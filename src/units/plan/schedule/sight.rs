@@ -1,4 +1,5 @@
-//! A pass as seen from the site: when it is above a height and the horizon mask, and where it is.
+//! Pass as seen from the site: its directions, and the times above an elevation and the horizon
+//! mask.
 
 use glam::DVec3;
 use jiff::Timestamp;
@@ -13,16 +14,16 @@ use crate::{
     plan::Sample,
 };
 
-/// Distance between samples, seconds, and their greatest numbers.
+/// Distance between samples, seconds, and max numbers of samples.
 const FINE_S: f64 = 2.0;
 const COARSE_S: f64 = 20.0;
 const MAX_FINE: f64 = 600.0;
 const MAX_COARSE: f64 = 60.0;
 /// Gravitational parameter of the Earth, km³/s².
 const GRAVITY_KM3_S2: f64 = 398_600.4;
-/// Largest error of a direction between two known places, radians: nothing beside any beam.
+/// Max error of a direction between two known places, radians: insignificant for any beam.
 const SAME_RAD: f64 = 5e-7;
-/// Halvings that find when a height is crossed, to some milliseconds.
+/// Number of halvings that find the crossing of an elevation, to some milliseconds.
 const HALVINGS: usize = 18;
 
 /// Directions at equal intervals.
@@ -33,7 +34,8 @@ pub(super) struct Samples {
 }
 
 impl Samples {
-    /// Returns whether they begin after the first of `spans`, and whether they end before the last.
+    /// Returns whether the samples begin after the first of `spans`, and whether they end before
+    /// the last.
     pub(super) fn leave_out(&self, spans: &[Span]) -> [bool; 2] {
         let [first, last] = [self.list.first(), self.list.last()]
             .map(|end_sample| end_sample.map(|sample| ms(sample.time)));
@@ -43,21 +45,21 @@ impl Samples {
     }
 }
 
-/// The few places of a pass between which the others are found.
+/// Few places of a pass from which the others are interpolated.
 struct Nodes {
     span: Span,
     places: Vec<(i64, Local)>,
     samples: Samples,
 }
 
-/// One pass, prepared for all antennas of a site.
+/// Pass, prepared for all antennas of a site.
 pub struct Sight<'a> {
     propagator: &'a Propagator,
     site: Site,
     frame: SiteFrame,
     mask: Option<&'a HorizonMask>,
     pass: &'a Pass,
-    /// `None` if no unit needs it.
+    /// Name of the satellite; `None` if no unit needs it.
     name: Option<&'a str>,
     /// Nodes of the last coarse sampling.
     coarse: Option<Nodes>,
@@ -86,7 +88,7 @@ impl<'a> Sight<'a> {
         }
     }
 
-    /// Gives the name of the satellite, by which some units find its elements.
+    /// Sets the name of the satellite, by which some units find its elements.
     #[must_use]
     pub fn named(self, name: &'a str) -> Self {
         Self { name: Some(name), ..self }
@@ -96,8 +98,8 @@ impl<'a> Sight<'a> {
         self.name
     }
 
-    /// From the first to the last moment at which an antenna points at `elevation` or higher;
-    /// `None` if the pass stays below.
+    /// Returns the span from the first to the last time at which an antenna points at `elevation`
+    /// or higher; `None` if the pass stays below.
     pub(super) fn above(&self, elevation: Angle) -> Option<Span> {
         let [aos, tca, los] = [self.pass.aos, self.pass.tca, self.pass.los];
         let pointed = |point: PassPoint| self.site.pointing_of_pass(point.direction).elevation;
@@ -113,7 +115,7 @@ impl<'a> Sight<'a> {
         (from_ms < to_ms).then_some(Span { from_ms, to_ms })
     }
 
-    /// The elevation at which something appears that stands at the elevation `geometric`.
+    /// Returns the apparent elevation of an object at the elevation `geometric`.
     pub(super) fn appearing_at(&self, geometric: Angle) -> Angle {
         self.site.apparent(AzEl { azimuth: Angle::ZERO, elevation: geometric }).elevation
     }
@@ -129,11 +131,11 @@ impl<'a> Sight<'a> {
                 below_ms = middle_ms;
             }
         }
-        // The side above, because the span must not begin or end too low.
+        // Take the upper side, because the span must not begin or end too low.
         above_ms
     }
 
-    /// The parts of `span` above the horizon mask.
+    /// Returns the parts of `span` above the horizon mask.
     pub(super) fn clear(&mut self, span: Span) -> Vec<Span> {
         let Some(mask) = self.mask else { return vec![span] };
         let (propagator, site, pass) = (self.propagator, self.site, self.pass);
@@ -145,12 +147,12 @@ impl<'a> Sight<'a> {
         Span::intersections(clear, &[span])
     }
 
-    /// Few samples.
+    /// Returns samples far apart, for a first check.
     pub(super) fn coarse(&mut self, span: Span) -> &Samples {
         &self.nodes(span).samples
     }
 
-    /// Samples as close as positions are judged, of a part of `span`.
+    /// Returns samples of a part of `span`, as close together as judged positions.
     pub(super) fn fine(&mut self, span: Span, part: Span) -> &Samples {
         let cached = self.fine.take().filter(|(spans, _)| *spans == [span, part]);
         let (_, samples) = cached.unwrap_or_else(|| {
@@ -160,7 +162,7 @@ impl<'a> Sight<'a> {
         &self.fine.insert(([span, part], samples)).1
     }
 
-    /// As [`Self::fine`] of all of `span`, each by the whole propagation.
+    /// Does the same as [`Self::fine`] for all of `span`, each sample by the whole propagation.
     #[cfg(test)]
     pub(super) fn exact(&self, span: Span) -> Samples {
         let (times, step_s) = times(span, FINE_S, MAX_FINE);
@@ -220,7 +222,7 @@ fn sample(site: &SiteFrame, time_ms: i64, position_km: DVec3) -> Sample {
     Sample { time: at_ms(time_ms), direction: site.direction(position_km) }
 }
 
-/// Times of samples and the seconds between them.
+/// Returns the times of samples and the seconds between them.
 fn times(span: Span, min_s: f64, max: f64) -> (impl Iterator<Item = i64>, f64) {
     let seconds = span.length_ms() as f64 / 1000.0;
     let steps = (seconds / min_s.max(seconds / max)).ceil().max(1.0);
@@ -229,23 +231,23 @@ fn times(span: Span, min_s: f64, max: f64) -> (impl Iterator<Item = i64>, f64) {
     ((0..=steps as i64).map(time), step_s)
 }
 
-/// The way between two places, by the cubic through their positions and velocities.
+/// Path between two places, by the cubic through their positions and velocities.
 struct Cubic {
     from_ms: i64,
     to_ms: i64,
     ends: [Local; 2],
-    /// They are close enough for that.
+    /// `true` if the two places are close enough for the cubic.
     is_exact: bool,
 }
 
 impl Cubic {
-    /// Seen from a site at `centre_km` from the centre of the Earth.
+    /// Creates the cubic as seen from a site at `centre_km` from the centre of the Earth.
     fn new((from_ms, a): (i64, Local), (to_ms, b): (i64, Local), centre_km: DVec3) -> Self {
         let ends = [a, b];
         let radius_km = ends.map(|local| (local.position_km + centre_km).length());
         let radius_km = radius_km[0].min(radius_km[1]);
-        // A cubic is off by a part of the fourth derivative, here that of a circular orbit over
-        // ground that turns the other way.
+        // The error of a cubic depends on the fourth derivative. This estimate assumes a circular
+        // orbit over ground that turns the other way.
         let rate_rad_s = (GRAVITY_KM3_S2 / radius_km.powi(3)).sqrt() + EARTH_RATE_RAD_S;
         let span_s = (to_ms - from_ms) as f64 / 1000.0;
         let off_km = (span_s * rate_rad_s).powi(4) / 384.0 * radius_km;
@@ -287,7 +289,7 @@ mod tests {
             ..PassSearch::new(station.site, noon(), end)
         };
         let (mut compared, mut worst_deg) = (0, 0.0_f64);
-        // Each orbit of the catalogue stands for some hundred others.
+        // Each orbit of the catalogue represents some hundred others.
         for elements in catalog.iter().step_by(97) {
             let Ok(propagator) = Propagator::new(elements) else { continue };
             for pass in passes(&propagator, &search, &|| false).iter().take(2) {

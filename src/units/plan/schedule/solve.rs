@@ -1,10 +1,10 @@
-//! The best choice among takes: ways of taking passes, each on one antenna for a span of time.
-//! Knows only spans, rows and slews.
+//! Best choice among takes: ways to take passes, each on one antenna for a span of time. The solver
+//! knows only spans, rows and slews.
 //!
-//! One antenna that can take each pass only once is solved exactly (`line.rs`). Several antennas, or
-//! one with limits of takes a day, are solved exactly as long as the number of states allows (`vector.rs`). Beyond
-//! that, the better of two greedy schedules (`greedy.rs`) is improved part by part
-//! (`neighbourhoods.rs`), and prices bound what any schedule can be worth (`prices.rs`).
+//! `line.rs` solves one antenna that can take each pass only once exactly. `vector.rs` solves
+//! several antennas, or one with limits of takes a day, exactly as long as the number of states
+//! allows. Beyond that, `neighbourhoods.rs` improves the better of two greedy schedules
+//! (`greedy.rs`) part by part, and `prices.rs` bounds the worth of any schedule.
 
 mod greedy;
 mod line;
@@ -18,74 +18,75 @@ use super::row::Row;
 use line::AntennaLine;
 use vector::Scope;
 
-/// How a take shares its pass with others.
+/// Relation of a take to other takes of its pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum PassPart {
-    /// It excludes all other takes of its pass.
+    /// Take that excludes all other takes of its pass.
     Alone,
-    /// It counts only together with a [`PassPart::Second`] of its pass on another antenna, which
-    /// begins when it has ended.
+    /// First part, which counts only together with a [`PassPart::Second`] of its pass on another
+    /// antenna. The second part begins after the end of the first.
     First,
     Second,
 }
 
-/// One way of taking a pass.
+/// Single way to take a pass.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Take {
-    /// Index of the pass.
+    /// Index of the pass in the problem.
     pub(super) pass: u32,
-    /// Index of the antenna.
+    /// Index of the antenna in the problem.
     pub(super) antenna: u32,
-    /// Index of the limit that it counts towards; `None` for the second part of a pass.
+    /// Index of the limit that includes the take; `None` for the second part of a pass.
     pub(super) limit: Option<u32>,
     pub(super) part: PassPart,
     pub(super) from_ms: i64,
-    /// Later than `from_ms`.
+    /// End of the take, milliseconds, later than `from_ms`.
     pub(super) to_ms: i64,
-    /// How much of its pass it is, thousandths rounded down: parts of a pass that can be taken
-    /// together make no more than 1000, and what stands alone is 1000.
+    /// Share of its pass, thousandths rounded down: combined parts of a pass make at most 1000, and
+    /// a take that stands alone is 1000.
     pub(super) share: i64,
-    /// Nothing that the antenna could take is cut off.
+    /// `true` if the take contains the whole possible span.
     pub(super) is_whole: bool,
-    /// The greatest elevation of its pass, thousandths of a degree.
+    /// Maximum elevation of its pass, thousandths of a degree.
     pub(super) height_mdeg: i64,
     pub(super) row: Row,
 }
 
-/// The slews of all antennas.
+/// Slews of all antennas.
 pub(super) trait Slews {
-    /// From where the antenna stands at first, milliseconds; `None` if it cannot be at `end` in time.
+    /// Returns the slew from the first position of the antenna, milliseconds; `None` if it cannot
+    /// be at `end` in time.
     fn first_ms(&self, end: usize) -> Option<i64>;
 
-    /// Between two takes of one antenna of which the second begins later, milliseconds; `None` if
-    /// it cannot be at the second in time.
+    /// Returns the slew between two takes of one antenna, the second of which begins later,
+    /// milliseconds. Returns `None` if the antenna cannot be at the second in time.
     fn slew_ms(&self, start: usize, end: usize) -> Option<i64>;
 
-    /// No slew between takes takes longer, with the set-up. Where two takes are that far apart, the
-    /// second can follow, if a way leads there at all.
+    /// Returns the max slew between takes, with the set-up, milliseconds. With this time between
+    /// two takes, the second can follow the first if any path leads there.
     fn longest_ms(&self, antenna: usize) -> i64;
 }
 
 pub(super) struct Problem<'a> {
     pub(super) antennas: usize,
     pub(super) passes: usize,
-    /// By antenna, then by start.
+    /// Takes by antenna, then by start.
     pub(super) takes: &'a [Take],
-    /// How many takes may count towards each limit.
+    /// Max number of takes towards each limit.
     pub(super) limits: &'a [u32],
     pub(super) slews: &'a dyn Slews,
-    /// Places looked at before the search for the proved best is given up.
+    /// Max number of checked places before the search for the proved best ends.
     pub(super) effort: u64,
 }
 
-/// Takes that exclude each other nowhere.
+/// Takes that do not exclude each other.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Solution {
-    /// By antenna, each in the order of time.
+    /// Takes by antenna, each in the order of time.
     pub(super) takes: Vec<Vec<u32>>,
     /// Worth of the takes, with their slews.
     pub(super) row: Row,
-    /// No solution is worth more.
+    /// Upper bound of the worth of any solution.
     pub(super) bound: Row,
 }
 
@@ -100,7 +101,8 @@ impl Problem<'_> {
         if let [line] = &lines[..] {
             let takes = vec![line.best(self, &|_, take| Some(take.row)).takes];
             let row = self.row(&takes);
-            // A line knows neither limits nor other parts of a pass, so its best may break both.
+            // A line knows neither limits nor other parts of a pass, so its best sequence may
+            // violate both.
             if self.keeps_limits(&takes) && self.takes_none_twice(&takes) {
                 return Solution { takes, row, bound: row };
             }
@@ -121,7 +123,7 @@ impl Problem<'_> {
         self.solve_in_part(&lines)
     }
 
-    /// The best schedule that is found, for where there are too many states to try them all.
+    /// Returns the best schedule found, if there are too many states to try all of them.
     fn solve_in_part(&self, lines: &[AntennaLine]) -> Solution {
         let start = self.greedy().into_iter().max_by_key(|takes| self.row(takes));
         let takes = self.refined(start.unwrap_or_default(), &mut self.effort.clone());
@@ -146,7 +148,7 @@ impl Problem<'_> {
         worth.slewed(slews.sum::<i64>() + first.unwrap_or_default())
     }
 
-    /// The slew between two takes of which the second starts later; `None` where the leg does
+    /// Returns the slew between two takes, the second of which starts later; `None` if the leg does
     /// not fit.
     fn slew_ms(&self, before: u32, take: u32) -> Option<i64> {
         let (earlier, later) = (self.take(before)?, self.take(take)?);
@@ -174,7 +176,7 @@ impl Problem<'_> {
         })
     }
 
-    /// How many of these takes count towards each limit.
+    /// Returns how many of these takes count towards each limit.
     fn used<'t>(&self, takes: impl Iterator<Item = &'t u32>) -> Vec<u32> {
         let mut used = vec![0; self.limits.len()];
         for limit in takes.filter_map(|take| self.take(*take)?.limit) {

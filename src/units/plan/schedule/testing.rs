@@ -1,4 +1,4 @@
-//! Test data about schedules, also for the packages above.
+//! Test data for schedules, also for the dependent packages.
 
 #[cfg(test)]
 mod days;
@@ -14,7 +14,7 @@ use crate::{
 #[cfg(test)]
 pub(in crate::plan) use days::*;
 
-/// A pass that an antenna is to track from AOS to LOS.
+/// Returns an entry of an antenna that tracks a pass from AOS to LOS.
 pub fn entry(antenna: AntennaId, pass: PassKey, end: Timestamp) -> Entry {
     Entry {
         pass,

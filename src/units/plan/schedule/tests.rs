@@ -1,4 +1,4 @@
-//! Schedules of real satellites on three antennas.
+//! Tests of schedules of real satellites on three antennas.
 
 mod milp;
 
@@ -12,7 +12,7 @@ use crate::{
 
 const SEED: u64 = 2_026;
 
-/// Ways of planning: the operator's choices.
+/// Returns the operator's choices for planning.
 fn kinds() -> [(Option<Partial>, BetweenPasses, ChooseBy); 5] {
     let part = |hand_over| Partial { min_share: 0.4, min_s: 90.0, step_s: 60.0, hand_over };
     [
@@ -45,8 +45,8 @@ fn each_day(days: u64, check: impl Fn(&Request<'_>)) {
     }
 }
 
-/// Plans so many days, each for other antennas with other keep-outs, in these ways; counts the pairs
-/// of entries, those with a way round between them, and the entries of a part of a pass.
+/// Plans this number of days in these ways, each with other antennas and other keep-outs. Counts
+/// the pairs of entries, the pairs with a path round a keep-out, and the entries of a partial pass.
 fn behind_keep_outs(
     (days, satellites, hours): (u32, usize, f64),
     kinds: &[(Option<Partial>, BetweenPasses, ChooseBy)],
@@ -100,7 +100,8 @@ fn behind_keep_outs(
     (pairs, detours, parts)
 }
 
-/// An entry promises what its antenna can take between its ends, and begins where it stands then.
+/// Checks that an entry promises only the possible take between its ends, and begins at the axis
+/// positions of that time.
 fn assert_counts(entry: &Entry, list: &[Candidate], day: u32) {
     let candidate = list.iter().find(|candidate| candidate.key == entry.pass).unwrap();
     let option = candidate.options.iter().find(|(id, _)| *id == entry.antenna);
@@ -124,7 +125,7 @@ fn no_two_entries_come_closer_than_the_way_round_keep_outs_and_set_up() {
 
 #[test]
 fn parts_of_passes_come_no_closer_than_the_way_round_keep_outs_and_set_up() {
-    // They have many ways between them, each round the keep-outs.
+    // Each of these schedules has many paths, each round the keep-outs.
     let (pairs, _, parts) = behind_keep_outs((2, 4, 2.5), &kinds()[3..]);
     assert!(pairs > 0 && parts > 0, "{pairs} {parts}");
 }
@@ -195,8 +196,8 @@ fn planning_again_changes_nothing() {
     });
 }
 
-/// The schedule once the operator has said that `pass` is always taken; `None` where it is still
-/// left out.
+/// Returns the schedule after the operator has set `pass` to always; `None` if it is still left
+/// out.
 fn with_always(request: &Request<'_>, pass: PassKey) -> Option<Schedule> {
     let mut chosen = request.candidates.to_vec();
     let candidate = chosen.iter_mut().find(|candidate| candidate.key == pass).unwrap();
@@ -267,14 +268,14 @@ fn every_reason_holds_when_the_pass_is_always_taken() {
                         );
                         continue;
                     };
-                    // Beyond its limit a satellite may well add to the worth.
+                    // Beyond its limit, a satellite may still add to the worth.
                     if schedule.is_proved() && !matches!(left.reason, LeftOutReason::MaxPerDay(_)) {
                         assert!(worth_in(request, &swapped) <= worth(&schedule), "{left:?}");
                     }
                     let start = request.antennas[0].free_from;
                     let changes = changes(&schedule, &swapped, start);
                     assert!(changes.iter().any(|change| change.pass == left.pass));
-                    // Something has made room for it.
+                    // The pass may fit after the removal of another entry.
                     let has_room = matches!(left.reason, LeftOutReason::MaxPerDay(_));
                     assert!(has_room || changes.len() > 1, "{left:?} {changes:?}");
                 }
@@ -305,7 +306,7 @@ fn a_pass_that_its_only_antenna_cannot_take_is_impossible() {
     let station = three_antennas();
     let antennas = planned(&station, noon());
     let mut satellites = low_satellites(&mut Random::new(SEED), 40);
-    // It reaches the south alone.
+    // This antenna reaches only the south.
     let narrow = antennas[2].id;
     for satellite in &mut satellites {
         satellite.limits.antennas = Some(vec![narrow]);
@@ -436,7 +437,7 @@ fn a_pass_that_is_tracked_already_or_waited_for_stays_until_its_end() {
     let ahead = candidate.under_way(antenna, choose_by, add_seconds(entry.pass.aos, -900.0));
     let ahead = ahead.unwrap();
     assert_eq!((ahead.start, ahead.end, ahead.late_s), (entry.start, entry.end, 0.0));
-    // By then it could not be taken as a whole.
+    // At that time, the antenna could not take the whole pass.
     let mut later = antennas.clone();
     for antenna in &mut later {
         antenna.free_from = now;

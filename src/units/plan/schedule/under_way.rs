@@ -1,4 +1,4 @@
-//! A pass that an antenna tracks already or was sent to, as an entry that a schedule keeps.
+//! Pass that an antenna already tracks or waits for, as an entry that a schedule keeps.
 
 use jiff::Timestamp;
 
@@ -11,8 +11,8 @@ use crate::station::ChooseBy;
 
 impl Candidate {
     /// Returns the rest of this pass at `now` for an antenna that tracks it, or waits for it to
-    /// begin; `None` where it is over, or where the antenna takes no passes or cannot take this
-    /// one.
+    /// begin. Returns `None` if the pass is over, if the antenna takes no passes, or if it cannot
+    /// take this one.
     pub fn under_way(
         &self,
         antenna: &PlannedAntenna,
@@ -28,7 +28,7 @@ impl Candidate {
                 pairs.map(|(stands, target)| (stands - target).abs()).fold(0.0, f64::max)
             })
         };
-        // The axes tell on which turn they follow the pass.
+        // The axis positions show on which turn they follow the pass.
         let way = ways.iter().min_by(|a, b| away_deg(a).total_cmp(&away_deg(b)))?;
         let Span { from_ms, to_ms } = way.span();
         let rest = Span { from_ms: from_ms.max(now_ms), to_ms };
@@ -38,12 +38,13 @@ impl Candidate {
         Some(self.fixed(antenna, choose_by, way, rest))
     }
 
-    /// The rest of this pass for an antenna that was taking it and stands since. It sets out as soon as
-    /// it is free. `None` if it cannot be there before the end, or if its position is unknown.
+    /// Returns the rest of this pass for an antenna that was taking it and has stopped. The antenna
+    /// sets out as soon as it is free. Returns `None` if it cannot arrive before the end, or if its
+    /// position is unknown.
     pub fn resumed(&self, antenna: &PlannedAntenna, choose_by: ChooseBy) -> Option<Entry> {
         let option = self.options.iter().find(|(id, _)| *id == antenna.id);
         let (_, Choice::Judged(Verdict::Possible(ways))) = option? else { return None };
-        // The operator or a rule may have refused the pass in the meantime.
+        // The operator or a rule may have refused the pass since.
         if antenna.off_reason.is_some() || self.refusal.is_some() {
             return None;
         }

@@ -1,5 +1,5 @@
-//! Trackability by elevation over azimuth: the mount reaches all of the sky, but the azimuth axis
-//! has to turn fast overhead and to slew a whole turn at its ends, unless the mount can flip.
+//! Trackability of elevation over azimuth: the mount reaches all of the sky. However, the azimuth
+//! axis must turn fast overhead and slew a whole turn at its ends, unless the mount can flip.
 
 use super::{Loss, MountLimits, Outside, Sample, Trackability};
 use crate::{
@@ -7,7 +7,7 @@ use crate::{
     plan::az_el::{AzElAxes, Flip, Planned, Start},
 };
 
-/// The longest slew of an axis, degrees.
+/// Max slew of an axis, degrees.
 const TURN_DEG: f64 = 360.0;
 
 pub(super) fn trackability(samples: &[Sample], limits: MountLimits) -> Trackability {
@@ -34,7 +34,7 @@ pub(super) fn trackability(samples: &[Sample], limits: MountLimits) -> Trackabil
     Trackability::new(lost, whole_s, loss)
 }
 
-/// Time outside the beam, and where it begins.
+/// Returns the time outside the beam, and the cause of the loss at its beginning.
 fn lost(
     samples: &[Sample],
     limits: MountLimits,
@@ -74,8 +74,8 @@ mod tests {
         station::Mount,
     };
 
-    /// A pass in a straight line over the ground that comes within `km` of the site, at 7.5 km/s
-    /// and a height of 800 km, flying towards `azimuth_deg`.
+    /// Returns a pass in a straight line over the ground at 7.5 km/s and a height of 800 km. It
+    /// comes within `km` of the site and flies towards `azimuth_deg`.
     fn pass(km: f64, azimuth_deg: f64) -> Vec<Sample> {
         (-250..=250)
             .map(|second| {
@@ -129,7 +129,7 @@ mod tests {
 
     #[test]
     fn a_pass_through_north_costs_a_slew_where_the_axis_ends_there() {
-        // From east-north-east through north.
+        // The pass comes from east-north-east through north.
         let through_north = pass(600.0, 275.0);
         let lost = super::trackability(&through_north, limits(360.0, 3.0));
         let Trackability::Loses { seconds, loss: Loss::Slew, .. } = lost else {

@@ -1,4 +1,4 @@
-//! Trackability by an X/Y mount: all of the sky except two keyholes at the ends of the lower axis.
+//! Trackability of an X/Y mount: all of the sky except two keyholes at the ends of the lower axis.
 
 use super::{Loss, MountLimits, Outside, Sample, Trackability};
 use crate::{
@@ -65,8 +65,8 @@ mod tests {
         }
     }
 
-    /// A pass in a straight line over the ground, `km` beside the site, from north to south at 7.5
-    /// km/s and a height of 800 km.
+    /// Returns a pass in a straight line over the ground, `km` beside the site, from north to south
+    /// at 7.5 km/s and a height of 800 km.
     fn pass(km: f64, azimuth_turn_deg: f64) -> Vec<Sample> {
         let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
         (-250..=250)

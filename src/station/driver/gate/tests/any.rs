@@ -1,5 +1,6 @@
-//! Checks that no motion that the gate allows leads anywhere forbidden: random antennas, keep-outs,
-//! positions and motions. `AZEL_CASES` and `AZEL_SEED` work as in `tests/safety_properties.rs`.
+//! Random tests that no motion allowed by the gate enters a forbidden area: random antennas,
+//! keep-outs, positions and motions. `AZEL_CASES` and `AZEL_SEED` work as in
+//! `tests/safety_properties.rs`.
 
 use super::*;
 use crate::{
@@ -9,13 +10,13 @@ use crate::{
     station::{Entered, KeepOut, Station},
 };
 
-/// Depth to which a way may touch the edge of a margin, degrees.
+/// Max depth to which a path may enter a margin, degrees.
 const EDGE_DEG: f64 = 0.05 + 1e-6;
 
-/// A narrower gap is no way out, degrees.
+/// Min width of a gap that counts as a way out, degrees.
 const GAP_DEG: f64 = 1.0;
 
-/// The step in which a way out is looked for, degrees.
+/// Step of the search for a way out, degrees.
 const FINE_DEG: f64 = 0.1;
 
 fn antenna(dice: &mut Dice) -> Antenna {
@@ -126,7 +127,8 @@ impl BothWays {
         Self { plain: Bounds::new(station, &plain), model: antenna.track_model() }
     }
 
-    /// The lesser clearance from each barrier, degrees; from the minimum elevation by the axes.
+    /// Returns the smaller clearance from each barrier, degrees; uses the axes for the minimum
+    /// elevation.
     fn clear_deg(&self, axes_deg: [f64; 2], utc: Timestamp) -> Vec<(Barrier, f64)> {
         let [first_deg, second_deg] = axes_deg;
         let by_axes = self.plain.direction(axes_deg);
@@ -148,22 +150,22 @@ impl BothWays {
         self.clear_deg(axes_deg, utc).into_iter().map(|(_, clear_deg)| clear_deg).collect()
     }
 
-    /// From the nearest barrier but the minimum elevation.
+    /// Returns the clearance from the nearest barrier except the minimum elevation, degrees.
     fn nearest_deg(&self, axes_deg: [f64; 2], utc: Timestamp) -> f64 {
         let each = self.clear_deg(axes_deg, utc).into_iter();
         let above = each.filter(|(barrier, _)| *barrier != Barrier::MinimumElevation);
         above.map(|(_, clear_deg)| clear_deg).fold(180.0, f64::min)
     }
 
-    /// From the surroundings of the Sun, degrees.
+    /// Returns the clearance from the surroundings of the Sun, degrees.
     fn sun_deg(&self, axes_deg: [f64; 2], utc: Timestamp) -> f64 {
         let mut each = self.clear_deg(axes_deg, utc).into_iter();
         each.find(|(barrier, _)| *barrier == Barrier::Sun).map_or(180.0, |(_, clear_deg)| clear_deg)
     }
 }
 
-/// How far it is to where the antenna may point by the shortest turn of one axis,
-/// degrees of the sky; looked for in small steps.
+/// Returns the shortest turn of one axis to an allowed direction, degrees of the sky; searches in
+/// small steps.
 fn way_out_deg(both: &BothWays, from_deg: [f64; 2], utc: jiff::Timestamp) -> Option<f64> {
     let (bounds, clear_deg) = (&both.plain, |axes_deg| both.each_deg(axes_deg, utc));
     let before_deg = clear_deg(from_deg);
@@ -211,7 +213,6 @@ fn way_out_deg(both: &BothWays, from_deg: [f64; 2], utc: jiff::Timestamp) -> Opt
     lengths.min_by(f64::total_cmp)
 }
 
-/// Outcome of one case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Outcome {
     Refused,
@@ -264,7 +265,8 @@ fn look_closely(seed: u64) -> Outcome {
         if let [Some(start_deg), Some(end_deg)] = ways_deg {
             let is_deeper = end_deg > start_deg + FINE_DEG;
             assert!(!is_deeper, "{seed}: {motion:?} leads from {start_deg} to {end_deg}");
-            // Nor is it anywhere in between, and what it was outside of stays so.
+            // No place in between enters a barrier either, and the antenna stays outside the
+            // others.
             let entered_at = |axes_deg, edge_deg: f64| {
                 let each = both.each_deg(axes_deg, utc).into_iter();
                 each.map(|clear_deg| clear_deg < -edge_deg).collect::<Vec<_>>()
@@ -288,11 +290,11 @@ fn look_closely(seed: u64) -> Outcome {
         }
         return Outcome::LedOut;
     }
-    // Only out of the surroundings of the Sun a go-to begins inside: it gets no nearer.
+    // A go-to may begin inside only near the Sun, and must not approach it.
     let min_clear_deg = f64::min(start_deg, 0.0) - EDGE_DEG;
     assert!(clear_deg(to_deg) > -EDGE_DEG, "{seed}: {motion:?} ends inside");
     assert!(start_deg > -EDGE_DEG || both.sun_deg(from_deg, utc) < 0.0, "{seed}: {motion:?}");
-    // Both axes may run at any share of their ways at any time.
+    // Each axis may have completed any share of its path at any time.
     for first in 0..=10 {
         for second in 0..=10 {
             let share = [f64::from(first) / 10.0, f64::from(second) / 10.0];
@@ -317,7 +319,7 @@ fn measured_at(case: &Case) -> Instant {
 fn any_motion_that_is_allowed_sweeps_nothing_forbidden() {
     let number = |name| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
     let seed = number("AZEL_SEED").unwrap_or(20_261_122);
-    // One costs a thousandth of a whole session.
+    // One of these cases costs a thousandth of a whole session.
     let cases = number("AZEL_CASES").map_or(2_000, |cases| cases * 10);
     let outcomes: Vec<Outcome> = (seed..seed + cases).map(look_closely).collect();
     let count = |outcome| outcomes.iter().filter(|it| **it == outcome).count();

@@ -1,4 +1,4 @@
-//! A detour of a program track is looked for outside the gate.
+//! Tests of the detour of a program track, which a worker searches for outside the gate.
 
 use super::*;
 use crate::{
@@ -6,8 +6,8 @@ use crate::{
     station::Entered,
 };
 
-/// An antenna at 20 degrees of elevation beside a mast between 100 and 120 degrees, which blocks the
-/// straight way to the other side and both ways of one axis after the other.
+/// Returns an antenna at 20 degrees of elevation beside a mast between 100 and 120 degrees. The
+/// mast blocks the direct path to the other side and both paths that turn one axis after the other.
 fn beside_a_mast() -> Case {
     let mut case = Case::new(Intent::Track);
     case.antenna.mount = Mount::AzEl {
@@ -53,7 +53,7 @@ fn there_is_no_route_until_a_detour_has_been_looked_for_and_it_grows_old() {
     assert_eq!(gate.check(route.first, Intent::Track, now), Ok(()));
     let Motion::Position { elevation: Some(elevation), .. } = route.first else { panic!() };
     assert!(elevation.degrees() > 20.0, "it leads over the mast: {elevation:?}");
-    // The track moves on slowly.
+    // The track advances slowly.
     assert!(gate.route(position(141.0, 20.5), Intent::Track, now).is_ok());
     assert!(open(gate.route(position(150.0, 20.0), Intent::Track, now)).is_some(), "another end");
     let later = Moment { steady: now.steady + Duration::from_secs(3), ..now };
@@ -83,7 +83,7 @@ fn a_slew_has_no_detour() {
     assert!(matches!(routed, Err(NoRoute::Refused(Refusal::Forbidden { .. }))), "{routed:?}");
 }
 
-/// The axes have gone on since they were read, and turn on until the unit obeys.
+/// The axes have turned further since the last reading, and continue until the unit obeys.
 #[test]
 fn a_motion_begins_wherever_the_last_one_has_led_by_then() {
     let mut case = beside_a_mast();

@@ -1,5 +1,5 @@
-//! No rule can go: of each one a case that it alone refuses, and that passes when
-//! it is taken out of the list.
+//! Proof that every rule is necessary: for each rule, a case that it alone refuses, and that passes
+//! without it.
 
 use std::collections::BTreeSet;
 
@@ -16,18 +16,18 @@ use crate::device::{
 #[derive(Debug, Clone, Copy)]
 enum Asked {
     Motion(Motion),
-    /// An action that moves nothing.
+    /// Action that moves nothing.
     Act,
     MovingAct,
-    /// The same with the operator's word.
+    /// Same action with the operator's permission.
     AgreedAct,
-    /// A setting that decides where the antenna points.
+    /// Setting that decides where the antenna points.
     Setting,
-    /// The same, while a motion is requested.
+    /// Same setting during a requested motion.
     SettingInMotion,
 }
 
-/// A Satrak that stands and would not start on its own.
+/// Returns a Satrak that stands and would not start on its own.
 fn idle_satrak() -> Case {
     changed(Case::new(Intent::Standby), |case| {
         let phase = Phase::OutOfWindow;
@@ -35,7 +35,7 @@ fn idle_satrak() -> Case {
     })
 }
 
-/// The case of a rule.
+/// Case that proves a rule necessary.
 struct Needed {
     rule: &'static str,
     case: Case,
@@ -72,7 +72,7 @@ fn locked_out(case: Case) -> Case {
     Case { lock_out: Some(lock_out), ..case }
 }
 
-/// A mast stands between 100 and 120 degrees, up to 40.
+/// Adds a mast between 100 and 120 degrees, up to 40 degrees.
 pub(super) fn beside_a_mast(case: Case) -> Case {
     let corners_deg = [(100.0, -5.0), (120.0, -5.0), (120.0, 40.0), (100.0, 40.0)];
     let mast = KeepOut {
@@ -86,7 +86,7 @@ pub(super) fn beside_a_mast(case: Case) -> Case {
     Case { keep_outs: vec![mast], ..case }
 }
 
-/// A keep-out of the station could not be read.
+/// Makes a keep-out of the station unreadable.
 pub(super) fn unread(case: Case) -> Case {
     let unread = Unread { place: "keep_out[0]".to_owned(), antenna: None };
     Case { unread: vec![unread], ..case }
@@ -97,7 +97,7 @@ fn changed(mut case: Case, change: fn(&mut Case)) -> Case {
     case
 }
 
-/// Where the azimuth axis of an RC2000C ends, degrees.
+/// Returns the end of the azimuth axis of an RC2000C, degrees.
 fn last_azimuth_deg() -> f64 {
     let [(_, to_deg), _] = rc2000c(Intent::Manual).antenna.mount.travel_deg();
     to_deg

@@ -1,4 +1,4 @@
-//! Differences between the makes.
+//! Tests of the differences between the makes.
 
 use super::*;
 use crate::{
@@ -95,7 +95,7 @@ fn an_azimuth_axis_has_its_own_ends() {
     let beyond = case.ask(position(451.0, 30.0));
     assert!(matches!(beyond, Err(Refusal::Travel { axis: "Az", .. })), "{beyond:?}");
 
-    // An axis that stays where it is asks for nothing.
+    // An axis that stays in place needs no angle.
     case.axes()[0].angle_deg = None;
     assert_eq!(case.ask(position(None, 30.0)), Ok(()));
 }
@@ -141,8 +141,8 @@ fn an_action_that_moves_passes_every_rule() {
     assert_eq!(case.act(action), Err(Refusal::Fault));
 }
 
-/// A Genius whose elevation travels to 180 degrees, and its gate. Its axes are
-/// flipped: they point to an azimuth of 20 and an elevation of 60 degrees.
+/// Returns a Genius with an elevation travel to 180 degrees, and its gate. Its axes are flipped:
+/// they point to an azimuth of 20 and an elevation of 60 degrees.
 fn flipped(intent: Intent) -> (Case, Gate) {
     let mut case = genius(intent);
     if let Mount::AzEl { elevation_to_deg, .. } = &mut case.antenna.mount {
@@ -193,7 +193,7 @@ fn by_hand_the_axes_go_back_to_where_they_count_plainly() {
         }
     };
     near(position(30.0, 40.0), [Some(30.0), Some(40.0)]);
-    // The angle that is not asked for stays as it is in the sky.
+    // The angle that the motion leaves out keeps its direction in the sky.
     near(position(30.0, None), [Some(210.0), None]);
     near(position(190.0, None), [Some(10.0), None]);
     near(position(None, 40.0), [None, Some(140.0)]);
@@ -252,8 +252,8 @@ fn by_hand_it_may_go_along_an_edge_to_where_the_way_out_is_shorter() {
         margin_deg,
         zone: KeepOut::zone_of(&corners_deg).unwrap(),
     };
-    // It stands within the margin below the balcony. The mast is beneath, and left of
-    // the mast the way down is free.
+    // The antenna stands within the margin below the balcony. The mast is beneath, and left of the
+    // mast the way down is free.
     let balcony = [(130.0, 44.0), (195.0, 44.0), (195.0, 80.0), (130.0, 80.0)];
     let mast = [(147.0, -5.0), (204.0, -5.0), (204.0, 30.0), (147.0, 30.0)];
     let mut case = Case {
@@ -275,7 +275,7 @@ fn by_hand_it_may_go_along_an_edge_to_where_the_way_out_is_shorter() {
 
 #[test]
 fn by_hand_it_leaves_a_keep_out_and_enters_it_nowhere_again() {
-    // A yard that is open in the middle, above 30 degrees.
+    // The keep-out surrounds a yard that is open above 30 degrees.
     let corners_deg = [
         (100.0, 10.0),
         (150.0, 10.0),
@@ -308,7 +308,7 @@ fn by_hand_it_leaves_a_keep_out_and_enters_it_nowhere_again() {
     assert!(matches!(through, Err(Refusal::Forbidden { .. })), "{through:?}");
 }
 
-/// The same on a mount of azimuth and elevation.
+/// Changes the mount to azimuth and elevation.
 fn changed_mount(case: Case) -> Case {
     let mount = Antenna::rc2000c("Dish", "").mount;
     Case { antenna: Antenna { mount, ..case.antenna }, ..case }
@@ -347,6 +347,6 @@ fn an_axis_that_a_program_track_sent_somewhere_is_still_on_its_way_when_the_othe
     assert_eq!(rounded(&gate), [Some(60.0), Some(70.0)]);
     gate.halted();
     assert_eq!(rounded(&gate), [None; 2]);
-    // A motion to a position replaces the one before it.
+    // A motion to a position replaces the previous motion.
     assert_eq!(rounded(&started(Intent::Position)), [None, Some(70.0)]);
 }

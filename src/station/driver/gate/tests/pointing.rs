@@ -1,13 +1,13 @@
-//! With a pointing model, both what the axes read and where the beam is have to stay outside.
+//! Tests of a pointing model: both the axis readings and the beam must stay outside barriers.
 
 use super::*;
 use crate::{astro::PointingModel, plan::Barrier, station::Entered};
 
-/// The azimuth axis reads by this much more than the direction of the beam.
+/// Difference between the azimuth axis and the direction of the beam, degrees.
 const OFFSET_DEG: f64 = 4.0;
 
-/// An azimuth and elevation antenna at an azimuth and 30 degrees of elevation. A mast stands between
-/// 100 and 120 degrees.
+/// Returns an azimuth and elevation antenna at this azimuth and 30 degrees of elevation. A mast
+/// stands between 100 and 120 degrees.
 fn at(azimuth_deg: f64, intent: Intent) -> Case {
     let mut case = Case::new(intent);
     case.antenna.mount = Mount::AzEl {
@@ -35,7 +35,7 @@ fn at(azimuth_deg: f64, intent: Intent) -> Case {
     case
 }
 
-/// The same antenna without a model.
+/// Removes the model from the antenna.
 fn plain(case: Case) -> Case {
     let mut case = case;
     case.antenna.pointing_model = PointingModel::default();
@@ -64,7 +64,7 @@ fn a_motion_whose_beam_enters_is_refused_though_the_axes_stay_outside() {
     ] {
         assert_only_the_beam_enters(126.0, intent, motion);
     }
-    // It would turn on for 0.4 s.
+    // The antenna would continue for 0.4 s.
     assert_only_the_beam_enters(124.3, Intent::Manual, jog(-1.0, 0.0));
 }
 
@@ -97,7 +97,7 @@ fn a_long_slew_is_judged_with_the_model_of_each_place() {
 
 #[test]
 fn the_beam_gets_out_by_hand_with_permission() {
-    // The axes stand outside, the beam 1 degree inside.
+    // The axes stand outside, but the beam is 1 degree inside.
     let case = at(123.0, Intent::Manual);
     let mut gate = case.gate(&Arc::default());
     let now = case.now();
@@ -119,7 +119,7 @@ fn the_axes_get_out_by_hand_where_only_they_are_inside() {
     let now = case.now();
     gate.let_out(Some(now.steady + Duration::from_mins(1)));
     assert_eq!(gate.check(jog(-0.5, 0.0), Intent::Manual, now), Ok(()));
-    // The beam would enter.
+    // The beam would enter the mast.
     let refused = gate.check(jog(0.5, 0.0), Intent::Manual, now);
     assert!(matches!(refused, Err(Refusal::Forbidden { .. })), "{refused:?}");
 }

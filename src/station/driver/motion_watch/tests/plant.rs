@@ -1,5 +1,5 @@
-//! An axis with a drive that starts late, coasts, runs for a while at least, and is read with noise in
-//! whole steps. It knows nothing of the watch.
+//! Simulated axis: its drive starts late, coasts and runs for a min time. Readings have noise and
+//! whole steps. The axis knows nothing of the watch.
 
 use std::collections::VecDeque;
 
@@ -14,13 +14,13 @@ pub(super) struct Kind {
     pub(super) travel_deg: (f64, f64),
     pub(super) rate_deg_s: f64,
     pub(super) starts_after_s: f64,
-    /// Time in which it comes to rest from its full rate.
+    /// Coasting time from the full rate, seconds.
     pub(super) coasts_s: f64,
-    /// The drive runs no shorter than this.
+    /// Min run time of the drive, seconds.
     pub(super) runs_s: f64,
-    /// The drive is switched off this share of the coasting before the target.
+    /// Share of the coasting distance before the target at which the drive switches off.
     pub(super) anticipates: f64,
-    /// A target within this is left alone, degrees.
+    /// Max distance from a target at which the drive does not start, degrees.
     pub(super) leaves_deg: f64,
     pub(super) noise_deg: f64,
     pub(super) step_deg: f64,
@@ -60,7 +60,7 @@ impl Kind {
 }
 
 impl Kind {
-    /// Without the coasting that makes a drive hunt for a target that moves.
+    /// Reduces the coasting, which makes a drive hunt for a moving target.
     pub(super) fn follows_well(&mut self) {
         (self.coasts_s, self.runs_s, self.anticipates) = (self.coasts_s.min(0.3), 0.0, 1.0);
         self.wraps = false;
@@ -70,7 +70,7 @@ impl Kind {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Order {
     To(f64),
-    /// Runs at a share of its rate, signed, until it is stopped or at an end.
+    /// Motion at a signed share of the rate, until a stop or the end of the travel.
     Run(f64),
     Stop,
 }
@@ -83,11 +83,11 @@ pub(super) struct Plant {
     rate_deg_s: f64,
     waiting: VecDeque<(f64, Order)>,
     order: Order,
-    /// The drive is on, in this direction, since then.
+    /// Direction of the running drive, and its start time.
     drive: Option<(f64, f64)>,
-    /// Number of times that the drive was switched on for this order.
+    /// Number of drive starts for this order.
     starts: u8,
-    /// Somebody turns the axis with this force, degrees from where they took it.
+    /// Force of somebody who turns the axis, degrees from its position at the start.
     pub(super) held_deg: Option<f64>,
     gust_deg: f64,
 }
@@ -120,7 +120,7 @@ impl Plant {
         self.drive.is_some()
     }
 
-    /// Positions that the drive goes to, now or soon.
+    /// Returns the positions that the drive approaches, now or soon.
     pub(super) fn targets_deg(&self) -> Vec<f64> {
         let orders =
             std::iter::once(self.order).chain(self.waiting.iter().map(|(_, order)| *order));
@@ -156,7 +156,7 @@ impl Plant {
                 let is_far = left_deg.abs()
                     > stops_deg.max(self.kind.leaves_deg * 0.5)
                         + if self.drive.is_some() { 0.0 } else { self.kind.leaves_deg * 0.5 };
-                // It does not reverse before it has come to rest.
+                // The drive does not reverse before it has come to rest.
                 let may = self.rate_deg_s == 0.0 || goes_there;
                 (is_far && may).then(|| left_deg.signum())
             }
@@ -164,7 +164,7 @@ impl Plant {
         let runs_on = self.drive.filter(|(_, since_s)| {
             self.now_s - since_s < self.kind.runs_s && self.order != Order::Stop
         });
-        // The unit leaves it at that after a few attempts.
+        // The unit gives up after three attempts.
         let wanted = wanted.filter(|_| self.drive.is_some() || self.starts < 3);
         let before = self.drive;
         self.drive = match (wanted, runs_on, self.drive) {
@@ -200,7 +200,7 @@ impl Plant {
         }
     }
 
-    /// The angle that the unit reports now, degrees.
+    /// Returns the currently reported angle, degrees.
     pub(super) fn read(&self, dice: &mut Dice) -> f64 {
         let noise_deg = dice.between(-1.0, 1.0) * self.kind.noise_deg;
         let deg = self.deg + self.gust_deg + noise_deg;

@@ -1,4 +1,4 @@
-//! Marks that an earlier run has left behind.
+//! Tests of marks that an earlier run left behind.
 
 use std::{
     num::NonZeroU32,
@@ -32,14 +32,14 @@ use crate::{
     station::Antenna,
 };
 
-/// A session with its marks in `folder`, and its unit.
+/// Starts a session with its marks in `folder`, and returns its unit.
 fn start(folder: &Path) -> (Control, AntennaHandle, Debts) {
     let debts = Debts::marked_in(Some(folder.to_owned()));
     let (control, handle) = testing::start(debts.clone(), |wires| wires);
     (control, handle, debts)
 }
 
-/// Leaves a mark of that age, as an earlier run that has tried to stop the unit until then.
+/// Writes a mark of this age, like an earlier run that tried to stop the unit until `tried`.
 fn leave_tried_mark(folder: &Path, age_s: i64, tried: Option<i64>) -> Timestamp {
     let ago = |age_s| START - SignedDuration::from_secs(age_s);
     let (debts, mark) = (
@@ -47,7 +47,7 @@ fn leave_tried_mark(folder: &Path, age_s: i64, tried: Option<i64>) -> Timestamp 
         Mark { since: Some(ago(age_s)), tried: tried.map(ago) },
     );
     debts.mark(&Unit::new(&antenna()), 0, mark);
-    // The worker writes it.
+    // Wait until the worker has written the mark.
     while debts.mark_kept(&Unit::new(&antenna())) == PromisedFile::Pending {
         std::thread::yield_now();
     }
@@ -119,7 +119,7 @@ async fn a_mark_that_cannot_be_read_asks_and_names_no_time() {
     assert_eq!(handle.snapshot().left_moving, Some(LeftMoving { start: None }));
 }
 
-/// STOP would take the panel from the person who works there.
+/// STOP would take the panel from the person who works on the unit.
 #[tokio::test(start_paused = true)]
 async fn where_another_may_have_the_panel_a_mark_asks_however_young_it_is() {
     let (horn, folder) = (Antenna::rc2000c("Horn", "in memory"), tempfile::tempdir().unwrap());
@@ -167,7 +167,7 @@ async fn a_unit_out_of_reach_for_an_hour_gets_its_stop_first_after_a_kill() {
         control.set_fault(Fault::Silence, true);
         handle.stop();
         seconds(3600).await;
-        // As if the program were killed here: its file is all that is left.
+        // Simulate a kill of the program here: only its file remains.
         let mark = debts.marked(&Unit::new(&antenna())).unwrap();
         let now = START + SignedDuration::from_secs(3605);
         assert!(seconds_between(mark.last_tried().unwrap(), now).abs() <= 90.0, "{mark:?}");
@@ -225,7 +225,7 @@ fn a_disk_that_hangs_does_not_hold_up_the_stop_that_is_owed_at_the_end() {
         let (control, handle, debts) = start(folder.path());
         seconds(5).await;
         control.set_fault(Fault::Silence, true);
-        // From here on nothing is written or read.
+        // From now on, the disk neither writes nor reads.
         let (disk, hangs) = std::sync::mpsc::sync_channel::<()>(1);
         spawn_blocking(move || hangs.recv());
         handle.stop();
@@ -239,7 +239,7 @@ fn a_disk_that_hangs_does_not_hold_up_the_stop_that_is_owed_at_the_end() {
     });
 }
 
-/// A motion that the slow disk holds up for 300 ms, and that is over when the disk comes back.
+/// A slow disk delays the motion for 300 ms; the motion ends before the disk responds.
 #[tokio::test(start_paused = true)]
 async fn a_mark_that_the_disk_takes_late_does_not_outlive_standstill() {
     let folder = tempfile::tempdir().unwrap();
@@ -290,7 +290,7 @@ async fn a_stop_that_the_disk_does_not_take_says_why_until_it_does() {
     assert!(next.is_marked(&Unit::new(&antenna())));
 }
 
-/// Lets time go on, since the paused clock stands while the disk hangs.
+/// Advances the paused clock while the disk hangs.
 async fn advance(milliseconds: u64) {
     for _ in 0..milliseconds / 10 {
         tokio::time::advance(Duration::from_millis(10)).await;
@@ -312,7 +312,7 @@ async fn a_stop_that_is_owed_is_on_disk_until_it_is_proved() {
     until("standstill is proved", || !is_marked()).await;
 }
 
-/// Lets real time go on as well, for the disk.
+/// Waits until `is_it` holds. Also lets real time pass, for the disk.
 async fn until(what: &str, is_it: impl Fn() -> bool) {
     for _ in 0..2_000 {
         if is_it() {

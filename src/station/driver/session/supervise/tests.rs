@@ -1,5 +1,5 @@
-//! No check of [`Session::supervise`] can go: each has a scenario with a simulated unit that ends as
-//! it should, and not without the check.
+//! Proof that every check of [`Session::supervise`] is necessary. Each check has a scenario with a
+//! simulated unit that succeeds only with the check.
 //!
 //! [`Session::supervise`]: crate::driver::session::Session::supervise
 
@@ -12,16 +12,16 @@ use super::CHECKS;
 use crate::driver::session::Session;
 use scenarios::start_after_halt;
 
-/// The checks that a session carries out.
+/// Set of checks that a session runs.
 #[derive(Debug, Clone, Copy)]
 enum Checks {
     All,
     Without(&'static str),
-    /// With two of them in each other's place.
+    /// All checks, with these two exchanged.
     Exchanged([&'static str; 2]),
 }
 
-/// Returns `true` if it ends as it should.
+/// Test that returns `true` if its scenario succeeds.
 type Scenario = fn(Checks) -> Pin<Box<dyn Future<Output = bool>>>;
 
 impl Session {
@@ -37,7 +37,7 @@ impl Session {
     }
 }
 
-/// A list of scenarios, each named after its check.
+/// Builds a list of scenarios, each with the name of its check.
 macro_rules! scenarios {
     ($($check:ident,)*) => {
         [$((stringify!($check), |checks| Box::pin(scenarios::$check(checks))),)*]
@@ -94,8 +94,8 @@ async fn a_scenario_ends_as_it_should_only_with_its_check() {
     assert!(faults.is_empty(), "{faults:#?}");
 }
 
-/// A motion that waits for standstill begins in the same pass in which that is proved: the checks above
-/// it have ended what had to end.
+/// A motion that waits for standstill begins in the same pass that proves standstill: the checks
+/// above it have ended all other motions.
 #[tokio::test(start_paused = true)]
 async fn what_begins_comes_after_what_ends() {
     let at_once = start_after_halt(Checks::All).await;

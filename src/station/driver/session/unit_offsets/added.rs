@@ -1,4 +1,4 @@
-//! Offsets added to those of the unit, according to its reports.
+//! Offsets that Azel added to the unit, according to its reports.
 
 use glam::DQuat;
 use jiff::Timestamp;
@@ -11,12 +11,12 @@ use crate::{
     driver::session::Session,
 };
 
-/// Ends of windows that are further apart are those of two passes, seconds.
+/// Min difference between the window ends of two passes, seconds.
 const APART_S: f64 = 30.0;
 
 impl Session {
-    /// Offsets added to those that the unit held before, at the last read; `None` while they are
-    /// not known.
+    /// Returns the difference between the last read offsets and those before Azel's change; `None`
+    /// if unknown.
     pub(super) fn added_offsets(&self) -> Option<TrackOffsets> {
         let current = self.held_offsets()?;
         match self.owed.debts().shifted() {
@@ -25,34 +25,34 @@ impl Session {
         }
     }
 
-    /// Offsets of the unit in azimuth and elevation, at the last read; `None` while they are not
-    /// known.
+    /// Returns the last read offsets of the unit in azimuth and elevation; `None` if unknown.
     pub(super) fn held_offsets(&self) -> Option<TrackOffsets> {
         let is_read = self.unit_offsets.is_read(self.read_at());
         self.gate.state().on_board.offsets.filter(|_| is_read)?.of_the_axes()
     }
 
-    /// When the offsets of the unit were read last.
+    /// Returns the time of the last reading of the unit's offsets.
     pub(super) fn read_at(&self) -> Option<Timestamp> {
         let group = self.gate.state().groups.get(self.setup.track_offsets()?.group)?;
         Some(group.last_read.as_ref()?.read_at)
     }
 
-    /// Offsets that are meant to be on: the antenna should point this far off its target.
+    /// Returns the desired offsets: the antenna should point this far off its target.
     pub(in crate::driver::session) fn meant_offsets(&self) -> TrackOffsets {
-        // What an earlier run left, or could not be taken back, is an error of this track.
+        // Leftover offsets of an earlier run, or offsets that Azel failed to remove, are an error
+        // of this track.
         let is_meant = self.unit_offsets.left().is_none()
             && self.owed.debts().shifted().is_some_and(|shifted| !shifted.is_found);
         self.added_offsets().filter(|_| is_meant).unwrap_or_default()
     }
 
-    /// State that the unit reports, without the offsets that are meant to be on.
+    /// Returns the reported state of the unit without the desired offsets.
     pub(in crate::driver::session) fn plain_unit(&self) -> OnBoard {
         self.gate.state().on_board.without_offsets(self.meant_offsets())
     }
 
-    /// From where the pointing model has the beam of the unit to where it is on the sky, if what was
-    /// added makes up for errors of the mount.
+    /// Returns the rotation from the modelled beam direction to the true one on the sky. Returns
+    /// `None` unless the added offsets correct errors of the mount.
     pub(in crate::driver::session) fn unit_to_sky(&self, now: Moment) -> Option<DQuat> {
         let meant = Some(self.meant_offsets()).filter(|meant| !meant.is_none())?;
         let judge = self.on_board_watch().filter(|_| self.program_is_on())?.judge();
@@ -79,12 +79,12 @@ impl Session {
         })
     }
 
-    /// Returns `true` once the unit does not track any more, or goes on with another pass than the
-    /// one to whose track something was added.
+    /// Returns `true` once the unit has ended the track with the added offsets, or tracks another
+    /// pass.
     pub(super) fn added_track_is_over(&self, now: Moment) -> bool {
         let added_to = self.owed.debts().shifted().and_then(|shifted| shifted.track);
         let is_another = self.reported_track().zip(added_to).is_some_and(|(track, then)| {
-            // The unit may report the window of a pass a little otherwise.
+            // The unit may report the window of the same pass slightly differently.
             let is_later = add_seconds(then.until, APART_S) < track.until;
             track.catalog_number != then.catalog_number
                 || is_later && then.until < self.unit_time(now)
@@ -93,12 +93,12 @@ impl Session {
             || is_another && self.program_is_on() && !self.commanded.activity.is_pending()
     }
 
-    /// Returns `true` unless taking back has failed just before.
+    /// Returns `true` unless a removal has just failed.
     pub(super) fn may_take_back(&self, now: Moment) -> bool {
         self.unit_offsets.may_take_back(self.may_track(), now.steady)
     }
 
-    /// Returns `true` if the track is over and what was added for it is still on the unit.
+    /// Returns `true` if the track is over and its added offsets are still on the unit.
     pub(in crate::driver::session) fn owes_offsets(&self) -> bool {
         let now = self.now();
         let is_owed =

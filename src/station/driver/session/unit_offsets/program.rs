@@ -13,7 +13,7 @@ use crate::{
 };
 
 impl Session {
-    /// Returns `true` while the unit tracks on its own, or is about to, and Azel knows its pass.
+    /// Returns `true` while the unit tracks on its own or is about to, and Azel knows its pass.
     pub(super) fn on_board_is_running(&self) -> bool {
         self.program_is_on()
             && !self.commanded.activity.is_pending()
@@ -25,22 +25,23 @@ impl Session {
         program.is_some_and(|program| program.enabled && program.phase != Phase::Completed)
     }
 
-    /// Returns `true` unless it is known that the unit does not track: other offsets would move
-    /// the antenna.
+    /// Returns `true` unless Azel knows that the unit does not track: other offsets would move the
+    /// antenna.
     pub(super) fn may_track(&self) -> bool {
         let stage = self.commanded.activity.on_board().map(|track| track.stage);
         let is_starting = matches!(stage, Some(OnBoardStage::Starting { .. }));
         self.contact.is_unread() || self.program_is_on() || is_starting
     }
 
-    /// The satellite that the unit says it tracks, and when it ends that by its own clock.
+    /// Returns the satellite that the unit reports to track, and the end of its track by its own
+    /// clock.
     pub(super) fn reported_track(&self) -> Option<AddedTo> {
         let report = &self.gate.state().on_board;
         let catalog_number = report.satellite.as_ref()?.catalog_number;
         Some(AddedTo { catalog_number, until: report.window?.1 })
     }
 
-    /// UTC by the clock of the unit.
+    /// Returns UTC by the clock of the unit.
     pub(super) fn unit_time(&self, now: Moment) -> Timestamp {
         let clock = self.gate.state().on_board.clock;
         add_seconds(now.utc, clock.map_or(0.0, |clock| clock.ahead_s))

@@ -1,4 +1,4 @@
-//! A change of the offsets of a track that the unit computes, from the request to the read-back.
+//! Change of the offsets of a track that the unit computes, from the request to the read-back.
 
 use std::time::Duration;
 
@@ -10,30 +10,30 @@ use crate::{
     contract::driver::{LeftOffsets, SESSION_TICKETS},
 };
 
-/// Interval at which the write of a record is checked.
+/// Interval between two checks of the write of a record.
 const LOOK: Duration = Duration::from_millis(2);
-/// Azel's own assumption: a unit applies a setting within this time, or not at all.
+/// Max time in which a unit applies a setting; an assumption of Azel.
 const APPLIED: Duration = Duration::from_mins(1);
-/// First and longest wait before offsets that were not taken back are written again.
+/// First and longest wait before Azel retries a removal.
 const AGAIN: Duration = Duration::from_secs(10);
 const MAX_AGAIN: Duration = Duration::from_mins(10);
 
-/// Offsets of the unit's own track, and the change of them that is under way.
+/// Offsets of the unit's own track, and their current change.
 #[derive(Default)]
 pub(in crate::driver::session) struct Shifting {
     step: Step,
-    /// Offsets that the operator wants, until they are in force.
+    /// Offsets that the operator wants, until they take effect.
     wanted: Option<TrackOffsets>,
-    /// Earlier values of `wanted`, for undo, the oldest first.
+    /// Previous values of `wanted`, for undo, the oldest first.
     earlier: Vec<TrackOffsets>,
-    /// Time of the last read when a change failed to read back: the offsets are unknown until a later
-    /// read.
+    /// Time of the last reading before a change failed to read back: the offsets are unknown until
+    /// a later reading.
     unread_since: Option<Timestamp>,
-    /// Until then the unit may still apply a change that did not read back.
+    /// Time until which the unit may still apply a change that did not read back.
     doubt_ends: Option<Instant>,
-    /// Why what was written is still there.
+    /// Reason why the written offsets are still on the unit.
     left: Option<LeftOffsets>,
-    /// When taking back is tried again, and the wait before that.
+    /// Time of the next attempt of a removal, and the wait before it.
     again: Option<(Instant, Duration)>,
     tickets: u64,
 }
@@ -42,19 +42,20 @@ pub(in crate::driver::session) struct Shifting {
 pub(super) enum Step {
     #[default]
     None,
-    /// Azel is recording on disk what the unit held before, and what it will hold with `wanted`.
+    /// Record on disk, in progress, of the unit's previous offsets and of its offsets with
+    /// `wanted`.
     Marking { wanted: TrackOffsets },
-    /// On its way to the unit.
+    /// Change on its way to the unit.
     Writing { ticket: u64 },
 }
 
-/// Knowledge of what the unit holds after a change that did not read back.
+/// Certainty of the unit's offsets after a change that did not read back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Certainty {
     Sure,
-    /// The unit may still apply the change.
+    /// Change that the unit may still apply.
     Unsure,
-    /// The unit applies it no more, and must be read again.
+    /// Change that the unit no longer applies; Azel must read the unit again.
     MustRead,
 }
 
@@ -79,18 +80,18 @@ impl Shifting {
         self.wanted
     }
 
-    /// Returns `true` while all that was added is to be taken back, by the operator or at the end of the
+    /// Returns `true` during the removal of all added offsets, by the operator or at the end of the
     /// track.
     pub(super) fn is_taking_back(&self) -> bool {
         self.wanted.is_some_and(TrackOffsets::is_none)
     }
 
-    /// Offsets before the last change.
+    /// Returns the offsets before the last change.
     pub(super) fn last_earlier(&self) -> Option<TrackOffsets> {
         self.earlier.last().copied()
     }
 
-    /// Keeps the offsets before a change, for undo.
+    /// Stores the offsets before a change, for undo.
     pub(super) fn remember(&mut self, before: TrackOffsets) {
         self.earlier.push(before);
     }
@@ -103,13 +104,13 @@ impl Shifting {
         self.earlier.clear();
     }
 
-    /// The operator wants these offsets. Earlier failures no longer count.
+    /// Requests the offsets that the operator wants, and forgets earlier failures.
     pub(super) fn request(&mut self, wanted: TrackOffsets) {
         self.forget_failures();
         self.wanted = Some(wanted);
     }
 
-    /// The track is over: all that was added is to be taken back.
+    /// Requests the removal of all added offsets after the track.
     pub(super) fn take_back(&mut self) {
         self.wanted = Some(TrackOffsets::NONE);
     }
@@ -130,7 +131,7 @@ impl Shifting {
         self.step = Step::None;
     }
 
-    /// What was wanted is in force.
+    /// Clears the request, because the wanted offsets are in effect.
     pub(super) fn is_in_force(&mut self) {
         self.wanted = None;
     }
@@ -148,7 +149,7 @@ impl Shifting {
         }
     }
 
-    /// A halt voids a change that is not on its way to the unit.
+    /// Voids a change after a halt, unless the change is already on its way to the unit.
     pub(in crate::driver::session) fn void(&mut self, in_force: Option<TrackOffsets>) {
         if let Step::Marking { .. } = self.step {
             self.step = Step::None;
@@ -156,7 +157,7 @@ impl Shifting {
         self.forget_wanted(in_force);
     }
 
-    /// The link is lost. Returns `false` if no change was under way.
+    /// Ends a change after the loss of the link. Returns `false` without a current change.
     pub(super) fn lose(&mut self, now: Instant) -> bool {
         match std::mem::take(&mut self.step) {
             Step::None => return false,
@@ -166,12 +167,13 @@ impl Shifting {
         true
     }
 
-    /// The unit may apply a change late.
+    /// Records that the unit may apply a change late.
     pub(super) fn doubt(&mut self, now: Instant) {
         self.doubt_ends = Some(now + APPLIED);
     }
 
-    /// Returns `true` if every change was read back, or read after the time of its doubt.
+    /// Returns `true` if Azel has read back every change, or has read the unit after the doubt
+    /// ended.
     pub(super) fn is_sure(&self) -> bool {
         self.doubt_ends.is_none()
     }
@@ -193,25 +195,25 @@ impl Shifting {
         }
     }
 
-    /// The offsets are unknown until the unit is read later than at `read_at`.
+    /// Marks the offsets as unknown until a reading later than `read_at`.
     pub(super) fn unread(&mut self, read_at: Option<Timestamp>) {
         self.unread_since = read_at;
     }
 
-    /// Returns `true` if what was read at `read_at` shows the offsets of the unit.
+    /// Returns `true` if the reading at `read_at` shows the offsets of the unit.
     pub(super) fn is_read(&self, read_at: Option<Timestamp>) -> bool {
         self.unread_since.is_none_or(|last| read_at != Some(last))
     }
 
-    /// Taking back has failed. Each failure doubles the wait before the next try.
+    /// Records a failed removal. Each failure doubles the wait before the next attempt.
     pub(super) fn fail(&mut self, left: LeftOffsets, now: Instant) {
         self.left = Some(left);
         let wait = self.again.map_or(AGAIN, |(_, wait)| MAX_AGAIN.min(wait * 2));
         self.again = Some((now + wait, wait));
     }
 
-    /// Returns `true` unless taking back has failed just before. An attempt that the gate refused
-    /// on the next track is repeated at the end of that track.
+    /// Returns `true` unless a removal has just failed. If the gate refused an attempt on the next
+    /// track, Azel repeats it at the end of that track.
     pub(super) fn may_take_back(&self, may_track: bool, now: Instant) -> bool {
         match &self.left {
             None => true,
@@ -222,17 +224,17 @@ impl Shifting {
         }
     }
 
-    /// Why what was written is still there.
+    /// Returns the reason why the written offsets are still on the unit.
     pub(super) fn left(&self) -> Option<&LeftOffsets> {
         self.left.as_ref()
     }
 
-    /// The unit holds nothing of Azel any more. Tickets stay unique.
+    /// Resets the state, because the unit has no offset of Azel any more. Tickets stay unique.
     pub(super) fn reset(&mut self) {
         *self = Self { tickets: self.tickets, ..Self::default() };
     }
 
-    /// When to check again whether the record is on the disk.
+    /// Returns the time of the next check whether the record is on disk.
     pub(in crate::driver::session) fn due(&self, now: Instant) -> Option<Instant> {
         matches!(self.step, Step::Marking { .. }).then_some(now + LOOK)
     }

@@ -1,4 +1,4 @@
-//! Records on disk, and offsets that an earlier run has left on the unit.
+//! Tests of records on disk, and of offsets that an earlier run has left on the unit.
 
 use std::{collections::BTreeMap, path::Path, sync::Arc, time::Duration};
 
@@ -20,7 +20,7 @@ use crate::{
     sim::satrak::{Control, Fault, Options},
 };
 
-/// The ISS in 2008, a published example.
+/// Elements of the ISS in 2008, a published example.
 const ELEMENTS: &str = "ISS (ZARYA)
 1 25544U 98067A   08264.51782528 -.00002182  00000-0 -11606-4 0  2927
 2 25544  51.6416 247.4627 0006703 130.5360 325.0288 15.72125391563537
@@ -30,7 +30,7 @@ fn site() -> Site {
     Site::new(41.01, 29.17, 100.0).unwrap()
 }
 
-/// A high pass of it.
+/// Returns a high pass of the ISS.
 fn pass() -> OnBoardPass {
     let elements = read_elements(ELEMENTS).elements.swap_remove(0);
     let (propagator, from) = (Propagator::new(&elements).unwrap(), elements.epoch());
@@ -51,7 +51,7 @@ fn pass() -> OnBoardPass {
     OnBoardPass { target, elements, site: site(), is_agreed: false }
 }
 
-/// A unit that comes to life this long after AOS.
+/// Returns a unit that starts `after_s` seconds after AOS.
 fn unit(after_s: f64) -> (Control, Timestamp) {
     let pass = pass();
     let now = add_seconds(pass.target.start, after_s);
@@ -59,7 +59,7 @@ fn unit(after_s: f64) -> (Control, Timestamp) {
     (Control::new(&Options { elements, ..Options::new(site(), now) }), now)
 }
 
-/// A new run of the program, at `now`.
+/// Starts a new run of the program at `now`.
 fn run(control: &Control, now: Timestamp, folder: &Path) -> AntennaHandle {
     let debts = Debts::marked_in(Some(folder.to_owned()));
     let handle = testing::over(control.clone(), now, debts, |wires| wires);
@@ -109,7 +109,7 @@ fn sent(control: &Control) -> Vec<String> {
     received.filter(|payload| payload.starts_with("SETTINGS=")).collect()
 }
 
-/// A session whose unit tracks the pass.
+/// Starts a session whose unit tracks the pass.
 async fn tracking(control: &Control, now: Timestamp, folder: &Path) -> AntennaHandle {
     let handle = run(control, now, folder);
     until(&handle, "read", is_read).await;
@@ -121,7 +121,7 @@ async fn tracking(control: &Control, now: Timestamp, folder: &Path) -> AntennaHa
     handle
 }
 
-/// Lets the unit track the pass with 0.2 degrees added, and ends the program.
+/// Makes the unit track the pass with 0.2 degrees added, and ends the program.
 async fn left_in_a_pass(folder: &Path) -> (Control, Timestamp) {
     let (control, now) = unit(30.0);
     let handle = tracking(&control, now, folder).await;
@@ -141,7 +141,7 @@ async fn left_in_a_pass(folder: &Path) -> (Control, Timestamp) {
     (control, add_seconds(now, 60.0))
 }
 
-/// Waits until the record is removed.
+/// Waits for the removal of the record.
 async fn forgotten(folder: &Path) {
     for _ in 0..300 {
         if mark(folder).is_none() {
@@ -247,7 +247,7 @@ async fn a_unit_that_applies_settings_late_is_watched_until_both_are_restored() 
     let shown = handle.snapshot();
     let left = shown.unit_offsets.clone().expect("the elevation is told");
     assert_eq!(left.offsets.elevation(), Angle::from_degrees(0.1));
-    // The unit drops the settings that were late.
+    // The unit drops the late settings.
     control.set_fault(Fault::LateSettings, false);
     let restored = |shown: &Snapshot| {
         let held = shown.state.on_board.offsets;
@@ -281,7 +281,7 @@ async fn an_offset_that_the_unit_applies_after_the_track_is_taken_back_too() {
     forgotten(folder.path()).await;
 }
 
-/// Wherever the program is killed, the unit ends without the offset.
+/// At any kill time of the program, the unit ends without the offset.
 #[tokio::test(start_paused = true)]
 async fn killed_at_any_step_of_an_offset_the_next_start_leaves_none_on_the_unit() {
     let folder = tempfile::tempdir().unwrap();
@@ -340,7 +340,7 @@ async fn what_the_unit_makes_of_an_offset_is_known_and_taken_back() {
     while sent(&control).is_empty() {
         sleep(Duration::from_millis(1)).await;
     }
-    // As a unit that keeps other values than it gets.
+    // Simulate a unit that stores other values than it receives.
     by_another(&control, "SETTINGS=,?,?,0.25,?,?,?,?,?,?,?,?").await;
     until(&handle, "known", |shown| {
         let unit = shown.unit_offsets.as_ref();
@@ -396,7 +396,7 @@ async fn what_the_unit_does_not_hold_any_more_is_not_offered() {
 #[tokio::test(start_paused = true)]
 async fn without_a_record_nothing_is_written() {
     let folder = tempfile::tempdir().unwrap();
-    // A file where the folder should be.
+    // Create a file in place of the folder.
     let blocked = folder.path().join("marks");
     std::fs::write(&blocked, "").unwrap();
     let (control, now) = unit(30.0);

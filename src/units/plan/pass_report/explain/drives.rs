@@ -8,13 +8,13 @@ use crate::{
     station::Mount,
 };
 
-/// Slowest and fastest drive that is looked for, degrees per second.
+/// Min and max rate of a drive in the search, degrees per second.
 const RATES_DEG_S: (f64, f64) = (0.02, 20.0);
-/// Steps of a search, each of which goes on between the neighbours of the best.
+/// Number of steps of a search; each search continues between the neighbours of the best value.
 const STEPS: usize = 40;
 const SEARCHES: usize = 3;
 
-/// The axes that a cause acts on.
+/// Axes that a cause affects.
 #[derive(Debug, Clone, Copy)]
 struct ChosenAxes([bool; 2]);
 
@@ -22,13 +22,13 @@ const BOTH_AXES: ChosenAxes = ChosenAxes([true, true]);
 const SINGLE: [ChosenAxes; 2] = [ChosenAxes([true, false]), ChosenAxes([false, true])];
 
 impl Evidence<'_> {
-    /// The rate of slow drives that explains the error best: that of one axis, or of both where
-    /// the positions need both.
+    /// Returns the rate of slow drives that explains the error best: of one axis, or of both if the
+    /// positions need both.
     pub(super) fn slow_drives(&self) -> Option<FoundCause> {
         self.narrowest(|axes| self.slow(axes))
     }
 
-    /// When an axis, or both, came to stand.
+    /// Returns the time at which an axis, or both, stopped.
     pub(super) fn stuck(&self) -> Option<FoundCause> {
         self.narrowest(|axes| self.stuck_axes(axes))
     }
@@ -56,7 +56,7 @@ impl Evidence<'_> {
     }
 
     fn stuck_axes(&self, axes: ChosenAxes) -> Option<FoundCause> {
-        // Axes that stand in one pass need not stand in another.
+        // Axes that stand in one pass may turn in another.
         let [points] = &self.passes[..] else { return None };
         let place = |share: f64| (points.len() as f64 * share) as usize;
         let fit =
@@ -98,7 +98,8 @@ impl Evidence<'_> {
     }
 }
 
-/// The place from 0 to 1 that leaves least. Coarse at first, because the sum has flat parts.
+/// Returns the place from 0 to 1 with the smallest remainder. The search is coarse at first,
+/// because the sum has flat parts.
 fn searched(fit: impl Fn(f64) -> CauseFit) -> Option<(f64, CauseFit)> {
     let (mut start, mut end) = (0.0, 1.0);
     let mut best: Option<(f64, CauseFit)> = None;
@@ -113,8 +114,8 @@ fn searched(fit: impl Fn(f64) -> CauseFit) -> Option<(f64, CauseFit)> {
     best
 }
 
-/// Angles of the axes that point at `direction`, degrees as the mount counts. `azimuth_deg`: its
-/// azimuth, continued over north.
+/// Returns the angles of the axes that point at `direction`, degrees as the mount counts.
+/// `azimuth_deg`: its azimuth, continued over north.
 fn axes_deg(mount: Mount, direction: AzEl, azimuth_deg: f64) -> [f64; 2] {
     match mount {
         Mount::AzEl { .. } => [azimuth_deg, direction.elevation_deg()],
@@ -135,8 +136,8 @@ fn measured_deg(point: &EvidencePoint<'_>, mount: Mount) -> [f64; 2] {
     axes_deg(mount, point.measured, point.azimuth_deg + deviation.degrees())
 }
 
-/// Angles of axes that follow the satellite from where they were first, those of `axes` at no
-/// more than this rate.
+/// Returns the angles of axes that follow the satellite from their first position; `axes` turn at
+/// most at `rate_deg_s`.
 fn slow(
     points: &[EvidencePoint<'_>],
     mount: Mount,
@@ -160,15 +161,14 @@ fn slow(
     errors.collect()
 }
 
-/// Angles of axes that follow the satellite, those of `axes` until the point at `place`, and stand
-/// from then on.
+/// Returns the angles of axes that follow the satellite; `axes` stop at the point at `place`.
 fn stuck(
     points: &[EvidencePoint<'_>],
     mount: Mount,
     axes: ChosenAxes,
     place: usize,
 ) -> Vec<[f64; 2]> {
-    // Where it stands is measured: it may never have been on its satellite.
+    // Use the measured angle of the standing axis, which may never have been on its satellite.
     let standing = points.get(place..).unwrap_or_default();
     let count = standing.len().max(1) as f64;
     let sum = standing.iter().fold([0.0; 2], |[first, second], point| {
@@ -186,7 +186,7 @@ fn stuck(
     errors.collect()
 }
 
-/// The angle of each of `axes` by `turned`; the others follow.
+/// Computes the angles of `axes` with `turned`; the other axes follow.
 fn each_axis(
     ChosenAxes([first, second]): ChosenAxes,
     [followed_first, followed_second]: [f64; 2],

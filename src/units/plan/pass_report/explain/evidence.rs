@@ -1,4 +1,4 @@
-//! The positions of passes, and what their satellites did.
+//! Positions of passes, and directions of their satellites.
 
 use glam::DVec3;
 use jiff::Timestamp;
@@ -13,43 +13,43 @@ use crate::{
     station::Mount,
 };
 
-/// Minimum time between two positions that are used, seconds.
+/// Min time between two used positions, seconds.
 const STEP_S: f64 = 0.95;
-/// Maximum number of positions that are used of a pass.
+/// Max number of used positions of a pass.
 const MAX_POSITIONS: usize = 1500;
-/// An antenna that comes closer to its satellite faster than this is on its way to it, degrees per
-/// second. No cause changes an error so fast but drives, and those let it grow first.
+/// Min rate of approach of an antenna that is on its way to its satellite, degrees per second. Only
+/// drives change an error this fast, and their error grows first.
 const ARRIVES_DEG_S: f64 = 0.1;
-/// A clock or a place that differs by less does not show, seconds and km.
+/// Min visible difference of a clock or a place, seconds and km.
 const MIN_CLOCK_S: f64 = 0.05;
 const MIN_PLACE_KM: f64 = 0.5;
 /// Kilometres in a degree of latitude.
 const KM_PER_DEG: f64 = 111.2;
 
-/// The origin of the path that an antenna followed.
+/// Origin of the path that an antenna followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PathSource {
-    /// Azel computed it and sent positions.
+    /// Azel, which computed the path and sent positions.
     Azel,
-    /// The unit computed it, without refraction.
+    /// Unit, which computed the path without refraction.
     Unit {
-        /// Its clock against UTC, seconds; `None` if it tells none.
+        /// Clock of the unit against UTC, seconds; `None` if the unit does not report it.
         clock_ahead_s: Option<f64>,
-        /// The place for which it computes; `None` if it tells none.
+        /// Place for which the unit computes; `None` if the unit does not report it.
         place: Option<Site>,
     },
 }
 
-/// A position with its satellite.
+/// Position with its satellite.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct EvidencePoint<'a> {
     pub(super) propagator: &'a Propagator,
     pub(super) time: Timestamp,
     pub(super) satellite: AzEl,
-    /// Where the satellite is at the time of the unit's clock, seen from the unit's place.
+    /// Direction of the satellite at the time of the unit's clock, seen from the unit's place.
     pub(super) followed: AzEl,
     pub(super) clock_late_s: f64,
-    /// The place of the unit, with the refraction by which it leads the antenna.
+    /// Place of the unit, with the refraction by which the unit leads the antenna.
     pub(super) place: Site,
     pub(super) is_airless: bool,
     /// Azimuth of `followed`, continued over north, degrees.
@@ -59,9 +59,9 @@ pub(super) struct EvidencePoint<'a> {
     pub(super) measured: AzEl,
 }
 
-/// The positions of passes, and what their satellites did.
+/// Positions of passes, and directions of their satellites.
 pub struct Evidence<'a> {
-    /// Each in the order of time.
+    /// Points of each pass in order of time.
     pub(super) passes: Vec<Vec<EvidencePoint<'a>>>,
     sources: Vec<PathSource>,
     site: Option<Site>,
@@ -73,8 +73,8 @@ pub struct Evidence<'a> {
 }
 
 impl<'a> Evidence<'a> {
-    /// No evidence yet. `has_elevation`: the antenna measures its elevation; else that of the
-    /// satellite stands in its place.
+    /// Creates empty evidence. `has_elevation`: the antenna measures its elevation; otherwise the
+    /// elevation of the satellite replaces it.
     pub fn new(mount: Mount, has_elevation: bool, half_beam: Angle) -> Self {
         Self {
             passes: Vec::new(),
@@ -88,14 +88,14 @@ impl<'a> Evidence<'a> {
         }
     }
 
-    /// The same for an antenna with an axis that did not turn as commanded: only its drives explain
-    /// the error.
+    /// Restricts the explanations to the drives, for an antenna with an axis that did not turn as
+    /// commanded.
     #[must_use]
     pub fn only_drives(self) -> Self {
         Self { only_drives: true, ..self }
     }
 
-    /// The same with the measured directions of one more pass, oldest first.
+    /// Adds the measured directions of one more pass, oldest first.
     #[must_use]
     pub fn with_pass(
         mut self,
@@ -111,7 +111,7 @@ impl<'a> Evidence<'a> {
                 let late_s = if late_s.abs() < MIN_CLOCK_S { 0.0 } else { late_s };
                 let is_elsewhere = |place: &Site| distance_km(site, *place) >= MIN_PLACE_KM;
                 let place = place.filter(is_elsewhere).unwrap_or(site);
-                // An elevation that is not measured has no error.
+                // An unmeasured elevation has no error.
                 let place = if self.has_elevation { place.airless() } else { place };
                 (late_s, place, self.has_elevation)
             }
@@ -156,7 +156,7 @@ impl<'a> Evidence<'a> {
         };
         let on_its_way = points.windows(2).take_while(arrives).count();
         let points = points.split_off(on_its_way);
-        // An error that lasts hardly changes from one position to the next.
+        // A lasting error hardly changes from one position to the next.
         let changes = points.windows(2).filter_map(|pair| match pair {
             [before, after] => Some((after.error - before.error).length_squared() / 2.0),
             _ => None,
@@ -172,27 +172,27 @@ impl<'a> Evidence<'a> {
         self.passes.iter().flatten()
     }
 
-    /// Sum of the squares of what differs from one position to the next.
+    /// Returns the sum of the squares of the differences between consecutive positions.
     pub(super) fn noise(&self) -> f64 {
         self.noise
     }
 
-    /// Root mean square of a sum of squares over all positions, degrees.
+    /// Returns the root mean square of a sum of squares over all positions, degrees.
     pub(super) fn rms_deg(&self, sum: f64) -> f64 {
         (sum / self.points().count().max(1) as f64).sqrt().to_degrees()
     }
 
-    /// The unit computed the paths by itself.
+    /// Returns `true` if the unit computed all paths.
     pub(super) fn is_of_unit(&self) -> bool {
         self.sources.iter().all(|source| matches!(source, PathSource::Unit { .. }))
     }
 
-    /// Nobody knows for which place the unit computes.
+    /// Returns `true` if the unit's place is unknown for any path.
     pub(super) fn is_site_open(&self) -> bool {
         self.sources.iter().any(|source| matches!(source, PathSource::Unit { place: None, .. }))
     }
 
-    /// The fit of a model: where it says that the antenna pointed.
+    /// Returns the fit of a model, which predicts the direction of the antenna.
     pub(super) fn fit_of(&self, model: impl Fn(&EvidencePoint<'_>) -> Option<AzEl>) -> CauseFit {
         let left = self.passes.iter().map(|points| {
             let left = points.iter().map(|point| {
@@ -204,7 +204,7 @@ impl<'a> Evidence<'a> {
         self.fit_of_residuals(&left.collect::<Vec<Vec<DVec3>>>())
     }
 
-    /// The same for what is left of each position.
+    /// Returns the fit for the remainder of each position.
     pub(super) fn fit_of_residuals(&self, left: &[Vec<DVec3>]) -> CauseFit {
         let all = || left.iter().flatten();
         let count = all().count().max(1) as f64;
@@ -214,9 +214,9 @@ impl<'a> Evidence<'a> {
         CauseFit { left: sum, variance: sum / (2.0 * count) * lasting(left), outside }
     }
 
-    /// The greatest known part of the error beside what `fit` takes away.
+    /// Returns the largest known part of the error besides the part that `fit` removes.
     pub(super) fn known_cause(&self, fit: CauseFit, whole: f64) -> Option<Cause> {
-        // Several passes have a clock each.
+        // Several passes have different clocks.
         let [points] = &self.passes[..] else { return None };
         let (first, site) = (points.first()?, self.site?);
         let late_s = first.clock_late_s;
@@ -240,7 +240,7 @@ impl<'a> Evidence<'a> {
     }
 }
 
-/// A place this far from another one; `None` beyond a pole.
+/// Returns a place at this distance from `site`; `None` beyond a pole.
 pub(super) fn moved(site: Site, north_km: f64, east_km: f64) -> Option<Site> {
     let per_deg = KM_PER_DEG * site.latitude().radians().cos().max(1e-3);
     let latitude_deg = site.latitude().degrees() + north_km / KM_PER_DEG;
@@ -250,7 +250,7 @@ pub(super) fn moved(site: Site, north_km: f64, east_km: f64) -> Option<Site> {
     moved.with_refraction(site.refraction()).ok()
 }
 
-/// Kilometres from `site` to `other`, to the north and to the east.
+/// Returns the distance from `site` to `other` to the north and to the east, km.
 fn apart_km(site: Site, other: Site) -> [f64; 2] {
     let per_deg = KM_PER_DEG * site.latitude().radians().cos();
     let north_deg = (other.latitude() - site.latitude()).degrees();
@@ -263,8 +263,8 @@ fn distance_km(site: Site, other: Site) -> f64 {
     north_km.hypot(east_km)
 }
 
-/// Number of positions in a row that say the same because what is left lasts: one where it is
-/// white noise. The sum of the autocorrelation up to where it fades.
+/// Returns the number of consecutive correlated positions; 1 for white noise. Computes the sum of
+/// the autocorrelation up to the lag where it fades.
 fn lasting(left: &[Vec<DVec3>]) -> f64 {
     let correlation = |lag: usize| -> f64 {
         let pairs = left.iter().flat_map(|left| left.iter().zip(left.iter().skip(lag)));

@@ -1,5 +1,5 @@
-//! One fit: where an antenna with certain causes points, and the sizes that leave least of the
-//! error.
+//! Single fit: the direction of an antenna with certain causes, and the sizes with the smallest
+//! remaining error.
 
 use glam::{DMat4, DVec3, DVec4};
 use jiff::Timestamp;
@@ -10,12 +10,12 @@ use crate::{
     orbit::Propagator,
 };
 
-/// Maximum number of rounds of a fit; most fits need three.
+/// Max number of rounds of a fit; most fits need three.
 const ROUNDS: usize = 8;
-/// Delays from which the fit of a delay may begin, seconds: an error of many seconds is not linear.
+/// Initial delays for the fit of a delay, seconds: an error of many seconds is not linear.
 const STARTS_S: [f64; 9] = [-30.0, -12.0, -5.0, -2.0, 0.0, 2.0, 5.0, 12.0, 30.0];
 
-/// A family of causes with up to two sizes.
+/// Family of causes with up to two sizes.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Family<'a> {
     Elements(&'a (Timestamp, Propagator)),
@@ -29,7 +29,7 @@ pub(super) enum Family<'a> {
 }
 
 impl Family<'_> {
-    /// All kinds of cause whose size is fitted.
+    /// All kinds of causes with a fitted size.
     pub(super) const ALL: [Self; 7] = [
         Self::Late,
         Self::Azimuth,
@@ -40,7 +40,7 @@ impl Family<'_> {
         Self::Site,
     ];
 
-    /// Small steps of its sizes.
+    /// Returns small steps of the sizes, each in its unit, for numerical derivatives.
     fn steps(self) -> &'static [f64] {
         match self {
             Self::Elements(_) => &[],
@@ -55,7 +55,7 @@ impl Family<'_> {
         matches!(self, Self::Elevation | Self::Tilt | Self::ElevationScale)
     }
 
-    /// The cause of the first of these sizes.
+    /// Returns the cause with the first of these sizes.
     fn cause(self, sizes: &[f64]) -> Cause {
         let [first, second] = [0, 1].map(|place| sizes.get(place).copied().unwrap_or_default());
         match self {
@@ -70,7 +70,8 @@ impl Family<'_> {
         }
     }
 
-    /// Where an antenna points that would point at `direction` without this cause.
+    /// Returns the direction of an antenna with this cause that would point at `direction` without
+    /// it.
     fn turns(self, direction: AzEl, point: &EvidencePoint<'_>, sizes: &[f64]) -> AzEl {
         let AzEl { azimuth, elevation } = direction;
         let deg = Angle::from_degrees;
@@ -82,7 +83,7 @@ impl Family<'_> {
                 AzEl { azimuth, elevation: elevation + deg(offset_deg) }
             }
             Cause::Tilt { north_deg, east_deg } => {
-                // A point towards which the axis leans is nearer to the axis, and so the elevation
+                // A point towards which the axis leans is nearer to the axis, so its elevation
                 // reads higher.
                 let lean = DVec3::new(deg(north_deg).radians(), -deg(east_deg).radians(), 0.0);
                 AzEl::from_enu(direction.to_enu() + lean.cross(direction.to_enu()))
@@ -94,7 +95,7 @@ impl Family<'_> {
                 azimuth,
                 elevation: elevation + deg(elevation.degrees() * per_mille / 1000.0),
             },
-            // These move the satellite, not the antenna.
+            // These causes move the satellite, not the antenna.
             Cause::Late { .. }
             | Cause::OtherElements { .. }
             | Cause::OtherSite { .. }
@@ -105,7 +106,7 @@ impl Family<'_> {
     }
 }
 
-/// Causes that act together, each with its sizes.
+/// Splits the sizes among causes that act together.
 fn sized<'a>(
     families: &'a [Family<'a>],
     mut sizes: &'a [f64],
@@ -117,7 +118,7 @@ fn sized<'a>(
     })
 }
 
-/// Direction in which an antenna with these causes points.
+/// Returns the direction of an antenna with these causes.
 fn modelled(families: &[Family<'_>], sizes: DVec4, point: &EvidencePoint<'_>) -> Option<AzEl> {
     let sizes = sizes.to_array();
     let (mut propagator, mut late_s) = (point.propagator, point.clock_late_s);
@@ -160,7 +161,7 @@ impl Evidence<'_> {
         }
     }
 
-    /// The sizes from which a fit begins.
+    /// Returns the initial sizes of a fit.
     fn start(&self, families: &[Family<'_>]) -> DVec4 {
         let mut places = families
             .iter()
@@ -181,7 +182,7 @@ impl Evidence<'_> {
         *late * best.map_or(0.0, |(start_s, _)| start_s)
     }
 
-    /// The sizes that leave least (Gauss-Newton).
+    /// Returns the sizes with the smallest remainder (Gauss-Newton).
     fn sizes(&self, families: &[Family<'_>], start: DVec4) -> DVec4 {
         let mut steps = DVec4::ZERO;
         let all_sizes = families.iter().flat_map(|family| family.steps()).zip(DVec4::AXES);
@@ -221,12 +222,12 @@ impl Evidence<'_> {
     }
 }
 
-/// The matrix of the products of all components.
+/// Returns the matrix of the products of all components.
 fn outer(vector: DVec4) -> DMat4 {
     DMat4::from_cols(vector * vector.x, vector * vector.y, vector * vector.z, vector * vector.w)
 }
 
-/// Solution of the equations; zero where these positions do not settle it.
+/// Solves the equations; returns zero if these positions do not determine a solution.
 fn solved(normal: DMat4, right: DVec4) -> DVec4 {
     let diagonal: f64 = (0..4).map(|place| normal.col(place)[place]).product();
     if normal.determinant().abs() <= 1e-12 * diagonal {

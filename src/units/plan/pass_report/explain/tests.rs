@@ -1,4 +1,4 @@
-//! Errors of known causes, put into passes of real satellites.
+//! Tests of known errors, added to passes of real satellites.
 
 mod antennas;
 mod draws;
@@ -21,13 +21,13 @@ use crate::{
 };
 
 const SEED: u64 = 20_260_812;
-/// `AZEL_EXPLAIN_CASES` sets another number.
+/// Number of cases; `AZEL_EXPLAIN_CASES` sets another number.
 const CASES: u32 = 200;
 const CASES_OF_TWO: u32 = 50;
 /// Standard deviation of both angles, degrees.
 const NOISE_DEG: f64 = 0.02;
 const HALF_BEAM_DEG: f64 = 0.1;
-/// A unit that computes its track, and tells nothing of how.
+/// Unit that computes its track and reports neither clock nor place.
 const UNIT: PathSource = PathSource::Unit { clock_ahead_s: None, place: None };
 const STEP_S: f64 = 0.5;
 const AZ_EL: Mount = Mount::AzEl {
@@ -46,7 +46,7 @@ struct Flight {
     pass: Pass,
 }
 
-/// Passes of low satellites that come up well, over three days.
+/// Returns passes of low satellites with a high elevation, over three days.
 fn flights() -> Vec<Flight> {
     let catalog = bundled().unwrap();
     let site = Station::default().site.airless();
@@ -80,12 +80,12 @@ impl Flight {
         (0..=count).map(move |step| add_seconds(start, f64::from(step) * STEP_S))
     }
 
-    /// Elements whose satellite is a little further on.
+    /// Returns elements whose satellite is slightly ahead.
     fn shifted(&self, mean_anomaly_deg: f64) -> Elements {
         let mut written = serde_json::to_value(&self.elements).unwrap();
         let anomaly = written["mean_anomaly_deg"].as_f64().unwrap();
         written["mean_anomaly_deg"] = (anomaly + mean_anomaly_deg).into();
-        // The plane differs too, as it does between two real sets.
+        // The plane differs too, like between two real sets.
         let node = written["node_deg"].as_f64().unwrap();
         written["node_deg"] = (node + mean_anomaly_deg / 2.0).into();
         serde_json::from_value(written).unwrap()
@@ -96,7 +96,7 @@ fn deg(deg: f64) -> Angle {
     Angle::from_degrees(deg)
 }
 
-/// With noise on both angles of the sky.
+/// Adds noise to both angles on the sky.
 fn noisy(exact: &[(Timestamp, AzEl)], random: &mut Random) -> Vec<(Timestamp, AzEl)> {
     let shakes = |random: &mut Random| NOISE_DEG * normal(random);
     let shifted = exact.iter().map(|(time, direction)| {
@@ -106,7 +106,7 @@ fn noisy(exact: &[(Timestamp, AzEl)], random: &mut Random) -> Vec<(Timestamp, Az
     shifted.collect()
 }
 
-/// Slow drives of a flight fail where the azimuth is quickest, and come back.
+/// Adjusts slow drives to a flight: they fail at the fastest azimuth, and catch up later.
 fn sized_for(flight: &Flight, cause: Cause) -> Cause {
     let Cause::SlowDrives { axis, .. } = cause else { return cause };
     let rates = flight.times().map(|time| {
@@ -121,7 +121,6 @@ fn is_same_kind(a: &Cause, b: &Cause) -> bool {
     std::mem::discriminant(a) == std::mem::discriminant(b)
 }
 
-/// The sizes of a cause.
 fn sizes(cause: &Cause) -> Vec<f64> {
     match *cause {
         Cause::Late { late_s } => vec![late_s],
@@ -136,8 +135,8 @@ fn sizes(cause: &Cause) -> Vec<f64> {
     }
 }
 
-/// Three times the standard deviation that the noise gives to the size of a cause whose error, without
-/// noise, is that of `exact`. The error grows with the size.
+/// Returns three times the standard deviation that the noise gives to the size of a cause. `exact`
+/// contains the error of that cause without noise, which grows with the size.
 fn noise_of_size(flight: &Flight, cause: &Cause, exact: &[(Timestamp, AzEl)]) -> f64 {
     if let Cause::SlowDrives { .. } = cause {
         return 0.01;
@@ -147,12 +146,12 @@ fn noise_of_size(flight: &Flight, cause: &Cause, exact: &[(Timestamp, AzEl)]) ->
         used.map(|(time, direction)| direction.separation(flight.direction_at(*time)).degrees());
     let whole: f64 = off_deg.map(|off_deg| off_deg * off_deg).sum();
     let size = sizes(cause).iter().map(|size| size * size).sum::<f64>().sqrt();
-    // Each of two sizes is known less well than one of them alone.
+    // Two sizes together are less certain than one of them alone.
     let parts = sizes(cause).len() as f64;
     3.0 * parts * size * NOISE_DEG / whole.sqrt()
 }
 
-/// By how much noise may change the size of a cause that acts together with another.
+/// Returns the max effect of noise on the size of a cause that acts together with another.
 fn noise_of_one_of_two(cause: &Cause) -> f64 {
     match cause {
         Cause::Late { .. } | Cause::Tilt { .. } => 0.06,
@@ -161,8 +160,8 @@ fn noise_of_one_of_two(cause: &Cause) -> f64 {
     }
 }
 
-/// Squares of the noise by which a cause misses an error without noise, beyond which noise does not
-/// hide it: one in a thousand, beside what [`super::ALIKE`] lets pass.
+/// Min sum of squares, in variances of the noise, by which a cause misses an error without noise
+/// and noise cannot hide it. One in a thousand passes, besides the tolerance of [`super::ALIKE`].
 const EXCLUDED: f64 = 40.0;
 
 /// Returns `true` if these directions, which have no noise, exclude the cause.
@@ -178,7 +177,8 @@ fn the_true_cause_of_an_error_is_named_first_or_with_those_that_look_alike() {
     let cases = std::env::var("AZEL_EXPLAIN_CASES").map_or(CASES, |cases| cases.parse().unwrap());
     let flights = flights();
     let mut random = Random::new(SEED);
-    // By cause: cases, named, of the right size, lines with more than one cause.
+    // The columns count by cause: cases, named, of the right size, and lines with more than one
+    // cause.
     let mut table = BTreeMap::<&str, [u32; 4]>::new();
     for case in 0..cases {
         let flight = &flights[random.below(flights.len() as u32) as usize];
@@ -234,7 +234,8 @@ fn the_true_cause_of_an_error_is_named_first_or_with_those_that_look_alike() {
     assert!(f64::from(total(2)) >= 0.95 * f64::from(total(0)), "of the right size");
 }
 
-/// A minute tells less than a pass: lines hold several causes, and none that the minute excludes.
+/// A minute contains less information than a pass: lines contain several causes, and none that the
+/// minute excludes.
 #[test]
 fn a_line_of_several_holds_the_true_cause_and_none_that_the_positions_exclude() {
     let flights = flights();
@@ -244,7 +245,7 @@ fn a_line_of_several_holds_the_true_cause_and_none_that_the_positions_exclude() 
         let flight = &flights[random.below(flights.len() as u32) as usize];
         let (_, cause) = drawn(&mut random, flight);
         let cause = sized_for(flight, cause);
-        // An azimuth scale counts from where the azimuth began to be counted, before this minute.
+        // An azimuth scale counts from the start of the azimuth count, before this minute.
         if matches!(cause, Cause::AzimuthScale { .. }) {
             continue;
         }
@@ -294,10 +295,11 @@ fn two_causes_that_act_together_are_named_together_with_their_sizes() {
         std::env::var("AZEL_EXPLAIN_CASES").map_or(CASES_OF_TWO, |cases| cases.parse().unwrap());
     let flights = flights();
     let mut random = Random::new(SEED);
-    // Cases, those that no single cause explains, of them named, of the right size, alone.
+    // The columns count: cases, those that no single cause explains, and of these those named, of
+    // the right size, and alone.
     let mut row = [0_u32; 5];
     let is_of_drives = |cause: &Cause| matches!(cause, Cause::SlowDrives { .. });
-    // Only one of both can be, and comes first.
+    // Only one of both is possible, and it comes first.
     let moves = |cause: &Cause| matches!(cause, Cause::Late { .. } | Cause::OtherElements { .. });
     for case in 0..cases {
         let flight = &flights[random.below(flights.len() as u32) as usize];
@@ -326,7 +328,7 @@ fn two_causes_that_act_together_are_named_together_with_their_sizes() {
             direction.separation(flight.direction_at(*time)).degrees().powi(2)
         });
         let error_deg = (squares.sum::<f64>() / exact.len() as f64).sqrt();
-        // Noise is left, and a trifle that the second cause does.
+        // The fit leaves noise and a small part of the second cause.
         let trifle_deg = NOISE_DEG * 2_f64.sqrt() + 0.035 * error_deg;
         if by_one.is_some_and(|explanation| explanation.left_deg < trifle_deg) {
             continue;
@@ -371,7 +373,7 @@ fn several_passes_tell_apart_what_one_does_not() {
         let flown = flights.iter().map(|flight| {
             let exact =
                 flight.times().map(|time| (time, flight.direction_at(add_seconds(time, -late_s))));
-            // Half a minute of each.
+            // Use half a minute of each pass.
             noisy(&exact.take(60).collect::<Vec<_>>(), &mut random)
         });
         let flown: Vec<_> = flown.collect();
@@ -401,7 +403,7 @@ fn the_way_to_a_pass_under_way_is_not_taken_for_slow_drives() {
     let flights = flights();
     let mut random = Random::new(SEED);
     for flight in &flights {
-        // 9 deg away at first, and on its way at 1.5 deg/s.
+        // The antenna is 9 degrees away at first, and approaches at 1.5 degrees per second.
         let begun = flight.pass.aos.time;
         let exact = flight.times().map(|time| {
             let AzEl { azimuth, elevation } = flight.direction_at(time);
@@ -560,7 +562,8 @@ fn slow_drives_of_crossed_axes_are_told_by_the_rate_of_those_axes() {
     assert!(named > 10, "{named}");
 }
 
-/// The fit takes off the clock that a unit reports, and names it where it makes a part of the error.
+/// The fit removes the clock error that a unit reports, and names it if it makes a part of the
+/// error.
 #[test]
 fn the_clock_that_a_unit_tells_is_named_beside_what_is_left() {
     let mut random = Random::new(SEED);
@@ -612,7 +615,7 @@ fn the_place_that_a_unit_tells_is_the_cause_and_a_right_one_rules_the_site_out()
     assert!(!is_of_site(&found(Some(flight.site))), "{:?}", found(Some(flight.site)));
 }
 
-/// Positions that Azel sent have no clock of a unit, no place of a unit and no elements of a unit.
+/// Positions sent by Azel depend on no clock, place or elements of a unit.
 #[test]
 fn what_azel_computes_itself_is_no_cause_of_a_track_by_positions() {
     let flights = flights();
@@ -630,7 +633,7 @@ fn what_azel_computes_itself_is_no_cause_of_a_track_by_positions() {
     }
 }
 
-/// A drive that stands half way, in one axis and in both.
+/// A drive stops half way, in one axis and in both.
 #[test]
 fn a_stuck_axis_is_named_with_the_time_since_when_it_stands() {
     let flights = flights();
@@ -682,8 +685,8 @@ fn after_an_axis_did_not_turn_as_commanded_only_drives_explain_an_error() {
     }
 }
 
-/// A unit leaves refraction out: that is known, named where it matters, and no other cause stands
-/// in for it.
+/// A unit ignores refraction. That cause is known; Azel names it if it matters, and no other cause
+/// replaces it.
 #[test]
 fn the_refraction_that_a_unit_leaves_out_is_named_beside_any_other_cause() {
     let mut random = Random::new(SEED);
@@ -711,7 +714,7 @@ fn the_refraction_that_a_unit_leaves_out_is_named_beside_any_other_cause() {
             panic!("{named:?}")
         };
         assert!((offset_deg - 0.4).abs() < 0.02, "{named:?}");
-        // Azel leads by refraction, and has none to leave out.
+        // Azel includes refraction, so it cannot be missing.
         let named = found(&measured_both, PathSource::Azel, &mut random);
         assert!(
             !named

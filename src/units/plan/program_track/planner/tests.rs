@@ -21,7 +21,7 @@ struct Metal {
     orders: VecDeque<(f64, [Option<f64>; 2])>,
     rate_deg_s: f64,
     latency_s: f64,
-    /// An axis does not set out for a distance as short as this, degrees.
+    /// Max distance for which an axis does not set out, degrees.
     ignored_deg: f64,
 }
 
@@ -92,7 +92,7 @@ fn settings(period_s: f64, dead_band_deg: f64) -> TrackSettings {
     TrackSettings { period_s, dead_band_deg, latency_s: 0.5, after: AfterPass::Hold }
 }
 
-/// The first pass of a satellite in three days for which `is_it` holds.
+/// Returns the first pass of a satellite in three days that meets the condition `is_it`.
 fn pass_where(is_it: impl Fn(&Propagator, &Pass) -> bool) -> (Target, Pass) {
     let catalog = bundled().unwrap();
     for number in [43013, 25544, 37849, 25994, 27424, 49260] {
@@ -139,7 +139,7 @@ fn metal(drives: Drives, settings: TrackSettings) -> Metal {
     }
 }
 
-/// Bounds with nothing in the way.
+/// Returns bounds with nothing in the way.
 fn free() -> Bounds {
     let mut antenna = Antenna::rc2000c("", "");
     antenna.limits.minimum_elevation_deg = 0.0;
@@ -235,7 +235,7 @@ fn whole_degrees_are_followed_to_their_rounding() {
     let (target, pass) = pass_where(|_, pass| (35.0..50.0).contains(&max_deg(pass)));
     let run = run(target, &pass, azel((0.0, 360.0), 4.0, 1.0), settings(1.0, 0.5));
     let (rms, worst, _) = shown("usual, whole degrees", run.stats);
-    // The rounding of two axes, each up to half a degree.
+    // The error comes from the rounding of two axes, each up to half a degree.
     assert!(rms < 0.5 && worst < 1.0, "{rms} {worst}");
 }
 
@@ -281,7 +281,7 @@ fn an_unwrap_is_on_its_way_until_the_predicted_time_and_else_the_antenna_is_on_i
     let until_s = seconds_between(pass.aos.time, end);
     assert!((until_s - back_s).abs() < 2.0, "{until_s} {back_s}");
     let turning = run.on_path.iter().filter(turns).count();
-    // 360 degrees at 4 degrees a second, four times a second.
+    // The axis turns by 360 degrees at 4 degrees a second, with four commands a second.
     assert!((200..500).contains(&turning), "{turning}");
     for (at_s, compared) in &run.on_path {
         if let OnPath::Due { deviation } = compared {
@@ -306,7 +306,7 @@ fn an_antenna_that_stands_is_off_its_path_once_it_should_have_arrived() {
 fn an_antenna_whose_drives_are_slower_than_known_is_on_its_way_while_it_comes_nearer() {
     let mut approach = Approach::default();
     let time = |second: i64| Timestamp::from_second(second).unwrap();
-    // 0.4 degrees a second, and then stuck.
+    // The axis turns at 0.4 degrees a second, and then gets stuck.
     let off_deg = |second: i64| 60.0 - 0.4 * second.min(60) as f64;
     let nearer: Vec<bool> =
         (0..120).map(|second| approach.comes_nearer(off_deg(second), time(second))).collect();
@@ -420,7 +420,7 @@ fn with_a_pointing_model_the_axes_are_sent_to_what_they_have_to_read() {
     let mut planner = planner.with_model(model);
     let now = pass.tca.time;
     let course = Course::new(&target, site()).unwrap();
-    // It stands on the satellite itself, as if there were no model.
+    // The antenna stands on the satellite itself, like without a model.
     let direction = course.direction(now).unwrap();
     let axes = [direction.azimuth_deg(), direction.elevation_deg()]
         .map(|position| AxisNow { position_deg: Some(position), stands: true });
@@ -434,7 +434,7 @@ fn with_a_pointing_model_the_axes_are_sent_to_what_they_have_to_read() {
             directions.clone().flatten().map(|other| other.separation(beam).degrees());
         separations.fold(f64::INFINITY, f64::min)
     };
-    // A command leads over the time to the next look.
+    // A command covers the time until the next update.
     assert!(off_deg(reading) < 0.3, "{} beside {reading:?}", off_deg(reading));
     let on_satellite = course.direction(now).unwrap();
     let beam = model.direction(planner.demanded(now, TrackOffsets::NONE).unwrap());
@@ -468,7 +468,7 @@ fn with_an_offset_the_antenna_is_sent_beside_its_target_and_without_it_back() {
     planner.set_offsets(TrackOffsets::NONE.plus(step).unwrap());
     let set_point = sent(&mut planner);
     let turned = (set_point.azimuth.unwrap() - plain.azimuth.unwrap()).wrapped_180().degrees();
-    // The way is longer, so the target is met at another time.
+    // The path is longer, so the antenna meets the target at another time.
     assert!((2.5..3.5).contains(&turned), "{plain:?} {set_point:?}");
     let time = pass.tca.time;
     let demanded = planner.reachable(time).unwrap();
@@ -477,8 +477,8 @@ fn with_an_offset_the_antenna_is_sent_beside_its_target_and_without_it_back() {
     assert_eq!(sent(&mut planner), plain);
 }
 
-/// A keep-out to be gone round, from the ground to `around_deg` above the middle of the pass, and
-/// `around_deg` to both sides of it.
+/// Returns bounds with a keep-out that permits a detour. It reaches from the ground to `around_deg`
+/// above the middle of the pass, and by `around_deg` to both sides of it.
 fn mast(target: &Target, pass: &Pass, around_deg: f64) -> (Bounds, KeepOut) {
     let course = Course::new(target, site()).unwrap();
     let halfway = course.direction(add_seconds(pass.aos.time, pass.duration_s() / 2.0)).unwrap();
@@ -523,7 +523,7 @@ fn a_mast_in_the_middle_of_a_pass_is_gone_round_along_its_margin() {
             let off_deg = target.separation(direction).degrees();
             if mast.zone.clearance(target) < Angle::from_degrees(8.0) {
                 behind_s += TICK_S;
-                // The margin, half a beam and the room add up to no more than four degrees.
+                // The margin, half a beam and the room add up to at most four degrees.
                 worst_deg = worst_deg.max(off_deg);
             } else if rate_deg_s > 2.0 {
                 assert!(off_deg < 1.5 + step_deg, "{off_deg} {now}");

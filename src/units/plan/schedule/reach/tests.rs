@@ -1,4 +1,4 @@
-//! Passes of real satellites, judged by few samples and by many.
+//! Tests of passes of real satellites, judged by few samples and by many.
 
 use super::*;
 use crate::{
@@ -12,7 +12,8 @@ use crate::{
 
 const SEED: u64 = 7;
 
-/// Calls `check` with the passes of so many satellites in a day, and the reach of each antenna.
+/// Calls `check` with the passes of this number of satellites in a day, and the reach of each
+/// antenna.
 fn each_pass(
     station: &Station,
     random: &mut Random,
@@ -43,7 +44,7 @@ fn by_many(reach: &Reach, sight: &mut Sight<'_>) -> Option<Verdict> {
     Some(reach.ways(sight.fine(span, span), &clear))
 }
 
-/// Judges by few samples alone, where they are enough.
+/// Judges by few samples alone, if they suffice.
 fn by_few(reach: &Reach, sight: &mut Sight<'_>) -> Option<Vec<Way>> {
     let span = sight.above(reach.min_elevation())?;
     let clear = sight.clear(span);
@@ -117,7 +118,8 @@ fn directions_between_few_states_are_judged_as_those_of_the_orbit() {
     assert!(judged > 100, "{judged}");
 }
 
-/// A part that is out of reach is that, and no slew, even if the axis changes ends meanwhile.
+/// Checks that both judgements find the same loss. A part out of reach is no slew, even if the axis
+/// changes ends in that time.
 fn assert_same_loss(judged: Option<Lost>, many: Option<Lost>, label: &str) {
     assert_eq!(judged.map(|lost| lost.seconds), many.map(|lost| lost.seconds), "{label}");
     let [judged, many] = [judged, many].map(|lost| lost.map(|lost| lost.loss));
@@ -246,8 +248,8 @@ fn with_a_pointing_model_a_way_has_the_beam_on_the_satellite_and_both_directions
     assert!(looks.iter().filter(|count| **count > 100).count() >= 2, "{looks:?}");
 }
 
-/// The seconds of a way that count lie in no barrier, and both ends can be reached from the open
-/// sky.
+/// Checks that the counted seconds of a path lie in no barrier, and that both ends are reachable
+/// from the open sky.
 fn assert_outside(reach: &Reach, way: &Way, label: &str) {
     let Span { from_ms, to_ms } = way.span();
     for time_ms in (from_ms + 2_000..to_ms).step_by(5_000) {
@@ -257,14 +259,14 @@ fn assert_outside(reach: &Reach, way: &Way, label: &str) {
         }
         let bounds = reach.bounds.at_time(at_ms(time_ms));
         let nearest = bounds.nearest(reach.bounds.direction(way.axes_deg(time_ms)));
-        // Between two samples the axes may cut a corner.
+        // Between two samples, the axes may cut a corner.
         let inside_deg = nearest.map_or(0.0, |nearest| -nearest.angle.degrees());
         assert!(inside_deg < 0.3, "{label}: {inside_deg} at {time_ms}");
     }
     assert!(reach.is_within_reach(way), "{label}");
 }
 
-/// An antenna never has to go to its park position, so a keep-out over it costs no pass.
+/// An antenna never has to go to its park position, so a keep-out over that position costs no pass.
 #[test]
 fn a_park_position_out_of_reach_costs_no_pass() {
     let mut random = Random::new(SEED + 5);

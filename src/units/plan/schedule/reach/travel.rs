@@ -1,5 +1,5 @@
-//! The part of a pass that an azimuth axis of less than a turn can have to do with. The rest is
-//! lost without a closer look.
+//! Part of a pass that an azimuth axis of less than a turn can reach. The rest counts as lost
+//! without a closer check.
 
 use super::{Reach, TURN_DEG};
 use crate::{
@@ -14,13 +14,13 @@ use crate::{
     station::Mount,
 };
 
-/// Below this elevation at two samples, the satellite stays below [`TOP_DEG`] between them.
+/// Elevation at two samples below which the satellite stays below [`TOP_DEG`] between them.
 const HIGH_DEG: f64 = 45.0;
 const TOP_DEG: f64 = 60.0;
 
 impl Reach {
-    /// From the first to the last of `samples` near which the beam can hold the satellite. `None`
-    /// if it can near none.
+    /// Returns the span from the first to the last of `samples` near which the beam can contain the
+    /// satellite; `None` without such a sample.
     pub(super) fn within_travel(&self, samples: &Samples, span: Span) -> Option<Span> {
         // An axis that waits outside may wait in a keep-out.
         let Some(touches) = self.touches().filter(|_| !self.has_barriers()) else {
@@ -33,15 +33,15 @@ impl Reach {
             .reduce(|first, last| Span { to_ms: last.to_ms, ..first })
     }
 
-    /// Returns a test whether the beam may hold the satellite between two samples; `None` if the
-    /// axes reach all of the sky.
+    /// Returns a test of whether the beam may contain the satellite between two samples; `None` if
+    /// the axes reach all of the sky.
     fn touches(&self) -> Option<impl Fn(&Sample, &Sample) -> bool> {
         let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_to_deg, .. } =
             self.drives.mount
         else {
             return None;
         };
-        // Up to an elevation, a direction is no nearer to the meridian of an azimuth than this.
+        // Up to this elevation, a direction is no nearer to the meridian of an azimuth than this.
         let sin_beam = self.half_beam.radians().sin() / TOP_DEG.to_radians().cos();
         let beam_deg = if sin_beam < 1.0 { sin_beam.asin().to_degrees() } else { TURN_DEG };
         let half_deg = (azimuth_to_deg - azimuth_from_deg) / 2.0 + beam_deg;

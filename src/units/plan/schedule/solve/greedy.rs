@@ -1,10 +1,10 @@
-//! Schedules that are made by taking one pass after the other, in some order.
+//! Schedules that take one pass after the other, in a fixed order.
 
 use super::{PassPart, Problem, Take};
 
 impl Problem<'_> {
-    /// The schedules of greedy planners: the passes that are worth most come first, or the highest
-    /// ones of each class.
+    /// Returns the schedules of greedy planners: the passes with the highest worth first, or the
+    /// highest passes of each class.
     pub(super) fn greedy(&self) -> [Vec<Vec<u32>>; 2] {
         let sorted = |compare: &dyn Fn(&Take, &Take) -> std::cmp::Ordering| {
             let mut order: Vec<u32> = (0..self.takes.len() as u32).collect();
@@ -23,7 +23,7 @@ impl Problem<'_> {
         [sorted(&|a, b| b.row.cmp(&a.row)), sorted(&highest)]
     }
 
-    /// Adds takes in their order, each where it fits beside those before it. Nothing is handed over.
+    /// Adds takes in their order if they fit beside the previous ones. Hands no pass over.
     pub(super) fn filled(
         &self,
         mut takes: Vec<Vec<u32>>,
@@ -31,7 +31,7 @@ impl Problem<'_> {
     ) -> Vec<Vec<u32>> {
         let mut is_taken = vec![false; self.passes];
         let mut left = self.limits.to_vec();
-        // Takes that are there already use up their passes and limits.
+        // Existing takes already use up their passes and limits.
         for take in takes.iter().flatten().filter_map(|take| self.take(*take)) {
             if let Some(flag) = is_taken.get_mut(take.pass as usize) {
                 *flag = true;
@@ -41,7 +41,7 @@ impl Problem<'_> {
             }
         }
         for index in order {
-            // A part of a pass is worth nothing until its second part is found, so whole ones only.
+            // A part of a pass is worth nothing without its second part, so add only whole passes.
             let Some(take) = self.take(index).filter(|take| take.part == PassPart::Alone) else {
                 continue;
             };

@@ -1,29 +1,29 @@
-//! One antenna: the best sequence of takes, by dynamic programming over the last take. Only
-//! neighbours in a sequence need time between them, so the best sequence that ends with a take
-//! follows from the best ones that end with each take before it, whatever the slews are. It may hold
-//! several parts of a pass, one after the other.
+//! Best sequence of takes of one antenna, by dynamic programming over the last take. Only
+//! neighbours in a sequence need time between them. So the best sequence that ends with a take
+//! follows from the best sequences that end with each earlier take, for any slews. A sequence may
+//! contain several parts of a pass, one after the other.
 
 use super::{Problem, Row, Take};
 
-/// The takes of one antenna, prepared for repeated solution.
+/// Takes of one antenna, prepared for repeated solution.
 pub(super) struct AntennaLine {
     antenna: usize,
-    /// Takes by start.
+    /// Takes of the antenna, sorted by start.
     by_start: Vec<u32>,
     /// Positions in `by_start`, by end.
     by_end: Vec<u32>,
-    /// For each position in `by_start`: how many of `by_end` have ended so early that any leg
-    /// fits, and how many have ended at all.
+    /// Counts for each position in `by_start`: how many of `by_end` have ended so early that any
+    /// leg fits, and how many have ended in total.
     ended: Vec<(u32, u32)>,
 }
 
-/// The best sequence.
+/// Best sequence of takes.
 pub(super) struct Sequence {
     pub(super) row: Row,
     pub(super) takes: Vec<u32>,
 }
 
-/// The best sequence up to a take.
+/// Best sequence up to a take.
 #[derive(Clone, Copy)]
 struct Best {
     row: Row,
@@ -44,7 +44,7 @@ impl AntennaLine {
         let mut by_end: Vec<u32> = (0..by_start.len() as u32).collect();
         by_end.sort_by_key(|position| (end(position), *position));
 
-        // A leg is costly to compute. Where any leg fits, none has to be known.
+        // A leg is costly to compute. If any leg fits, its time is irrelevant.
         let longest_ms = problem.slews.longest_ms(antenna);
         let ended = |take: &u32| {
             let (from_ms, _) = span(take);
@@ -55,7 +55,8 @@ impl AntennaLine {
         Self { antenna, by_start, by_end, ended }
     }
 
-    /// The sequence that is worth most; `worth` is the row of a take, `None` for one that is out.
+    /// Returns the sequence with the highest worth; `worth` returns the row of a take, `None` for
+    /// an excluded take.
     pub(super) fn best(
         &self,
         problem: &Problem<'_>,
@@ -70,7 +71,7 @@ impl AntennaLine {
                     ahead.add(*before, of_before.row);
                 }
             }
-            // `far` never falls, because the takes are sorted by start: nothing is added twice.
+            // The takes are sorted by start, so `far` never falls and no sequence is added twice.
             passed = *far as usize;
             let own = problem.take(*take).and_then(|entry| worth(*take, entry));
             let found = own.and_then(|own| {
@@ -78,12 +79,12 @@ impl AntennaLine {
                 let mut best_before =
                     first.map(|ms| Best { row: Row::ZERO.slewed(ms), before: None });
                 let near = self.by_end.get(passed..*near as usize).unwrap_or_default();
-                // The latest are likely to be worth most.
+                // Start with the latest, which likely have the highest worth.
                 let near = near.iter().rev().filter_map(|before| {
                     Some((*before, best.get(*before as usize)?.as_ref()?.row))
                 });
                 for (before, row) in ahead.best.iter().copied().chain(near) {
-                    // A slew only makes it less, so that few legs need be known.
+                    // A slew only reduces the row, so few legs need computation.
                     if best_before.is_some_and(|best| row <= best.row) {
                         continue;
                     }
@@ -106,7 +107,7 @@ impl AntennaLine {
         let mut last: Option<(u32, Best)> = None;
         for (position, found) in (0..).zip(best) {
             let Some(found) = found else { continue };
-            // No take at all is worth zero, so a sequence worth less than that is not taken.
+            // An empty sequence is worth zero, so skip a sequence that is worth less.
             let row_so_far = last.map_or(Row::ZERO, |(_, best)| best.row);
             if found.row > row_so_far {
                 last = Some((position, *found));
@@ -124,8 +125,8 @@ impl AntennaLine {
     }
 }
 
-/// The best sequences of which the last take has ended so early that any leg fits: those that are
-/// worth most, and of those all that may still have the fewest slews.
+/// Best sequences whose last take has ended so early that any leg fits: the sequences with the
+/// highest worth, and among these all that may still have the fewest slews.
 struct Ahead {
     longest_ms: i64,
     best: Vec<(u32, Row)>,
@@ -142,7 +143,7 @@ impl Ahead {
             return;
         };
         match row.before_slews().cmp(top.before_slews()) {
-            // Slews are compared last: no slew makes up for a lower row.
+            // Slews come last in the comparison: no slew compensates for a lower row.
             std::cmp::Ordering::Less => {}
             std::cmp::Ordering::Greater => {
                 self.best.clear();
@@ -152,7 +153,8 @@ impl Ahead {
                 self.best.push((position, row));
                 let slews = self.best.iter().map(|(_, row)| row.slew_ms());
                 let min_ms = slews.min().unwrap_or_default();
-                // The next leg adds at most `longest_ms`, so sequences within that may still win.
+                // The next leg adds at most `longest_ms`, so sequences within that margin may still
+                // win.
                 let max_ms = min_ms + self.longest_ms;
                 self.best.retain(|(_, row)| row.slew_ms() <= max_ms);
             }

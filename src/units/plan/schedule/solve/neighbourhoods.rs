@@ -1,19 +1,20 @@
-//! Search in large neighbourhoods: some passes are chosen again, as well as can be, while the takes
-//! of all others stay. A schedule only ever becomes better, and ends where no neighbourhood improves
-//! it.
+//! Search in large neighbourhoods: the search chooses some passes again as well as possible, while
+//! all other takes stay. A schedule only improves, and the search ends when no neighbourhood
+//! improves it.
 
 use super::{
     Problem, Row, Take,
     vector::{self, Scope},
 };
 
-/// Passes in a row that are chosen again at once. If that makes too many states, their halves are.
+/// Number of consecutive passes that the search chooses at once. With too many states, it chooses
+/// their halves.
 const AT_ONCE: usize = 16;
-/// Fewer are not halved.
+/// Max number of passes that are not halved.
 const FEW: usize = 4;
 
 impl Problem<'_> {
-    /// Improves a schedule until no neighbourhood does, or no `effort` is left.
+    /// Improves a schedule until no neighbourhood does, or until `effort` is used up.
     pub(super) fn refined(&self, takes: Vec<Vec<u32>>, effort: &mut u64) -> Vec<Vec<u32>> {
         let in_a_row = self.passes_by_start();
         // Neighbourhoods overlap by half, so that passes on both sides of a border meet in one.
@@ -32,8 +33,7 @@ impl Problem<'_> {
         }
         let mut schedule = (self.row(&takes), takes);
         loop {
-            // An improvement may make room for another one in a neighbourhood that was tried
-            // before.
+            // An improvement may allow another one in a neighbourhood that was tried before.
             let before = schedule.0;
             for passes in &neighbourhoods {
                 self.choose_again(&by_pass, passes, &mut schedule, effort);
@@ -105,12 +105,12 @@ impl Problem<'_> {
                     })
                     .collect();
                 let row = self.row(&takes);
-                // Equal schedules are left alone, because the search would never end.
+                // Ignore equal schedules; otherwise the search would never end.
                 if row > schedule.0 {
                     *schedule = (row, takes);
                 }
             }
-            // Too many states for all passes at once; each half may still improve.
+            // There are too many states for all passes at once, but each half may still improve.
             None if *effort > 0 && passes.len() > FEW => {
                 let (first, second) = passes.split_at(passes.len() / 2);
                 self.choose_again(by_pass, first, schedule, effort);
@@ -133,12 +133,12 @@ impl Problem<'_> {
         passes.into_iter().map(|(_, pass)| pass).collect()
     }
 
-    /// The passes that count towards a limit, and those that an antenna can take only instead of
-    /// one of them.
+    /// Returns the passes that count towards a limit, and the passes that an antenna can take only
+    /// instead of one of them.
     fn around_limit(&self, limit: u32) -> Vec<u32> {
         let own: Vec<&Take> = self.takes.iter().filter(|take| take.limit == Some(limit)).collect();
         let is_beside = |take: &Take| {
-            // Takes farther apart than the longest slew do not compete for the antenna.
+            // Takes further apart than the longest slew do not compete for the antenna.
             let margin_ms = self.slews.longest_ms(take.antenna as usize);
             own.iter().any(|other| {
                 other.pass == take.pass

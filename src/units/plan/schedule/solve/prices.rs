@@ -1,63 +1,61 @@
-//! Bounds by prices of passes and of limits: the price that a take of a pass has to pay makes the
-//! antennas independent of each other. With any prices, the best sequences of all antennas together
-//! with the prices themselves are worth at least as much as any schedule (weak duality). Prices rise
-//! while a pass is taken more than once and fall while nobody takes it, until the bound meets what
-//! was found.
+//! Bounds by prices of passes and of limits. Each take of a pass pays a price, which makes the
+//! antennas independent of each other. With any prices, the best sequences of all antennas plus the
+//! prices are worth at least as much as any schedule (weak duality). The price of a pass rises
+//! while several takes use it and falls while none does, until the bound meets the found schedule.
 //!
-//! One class is bounded at a time, over the schedules that are worth no less in the classes before:
-//! a round that is worth less there pays for what is missing.
+//! The solver bounds one class at a time, over the schedules that are worth no less in the previous
+//! classes. A round that is worth less there pays for the missing worth.
 
 use super::{AntennaLine, Problem, Row, Take};
 
-/// The share of a whole pass, and the smallest step of a price.
+/// Share of a whole pass, and the min step of a price.
 const ONE: i64 = 1000;
-/// Rounds of new prices.
+/// Max number of price updates.
 const ROUNDS: usize = 60;
-/// Rounds without a better bound after which the steps are halved.
+/// Number of rounds without a better bound after which the steps are halved.
 const PATIENCE: usize = 5;
-/// Prices count in the only cell of their rows.
+/// Index of the only cell of price rows.
 const CELL: usize = 0;
 
 #[derive(Clone)]
 struct Prices {
     passes: Vec<i64>,
     limits: Vec<i64>,
-    /// For each class before: the price of missing as much as its most valuable take.
+    /// Price for each previous class, for missing as much as its most valuable take.
     classes: Vec<i64>,
 }
 
-/// The class to be bounded, and what it stands behind.
+/// Class to bound, and its context.
 struct Bounded<'a> {
     problem: &'a Problem<'a>,
     lines: &'a [AntennaLine],
     class: usize,
-    /// The schedule that was found.
+    /// Found schedule.
     row: &'a Row,
-    /// The worth of the most valuable take of each class before.
+    /// Worth of the most valuable take of each previous class.
     maxima: Vec<i64>,
 }
 
 /// Result for the takes of all antennas at some prices.
 struct Round {
-    /// In thousandths.
+    /// Upper bound of the class, in thousandths.
     bound: i64,
-    /// In thousandths: how much more than once each pass is taken, how much more than its limit
-    /// each limit is used, and how many of its most valuable takes are missing in each class
-    /// before.
+    /// Excess, in thousandths: takes of each pass beyond one, takes of each limit beyond its max,
+    /// and missing most valuable takes in each previous class.
     excess: Vec<i64>,
 }
 
-/// At most this much is in `class` of any schedule that is worth no less than `row` in the classes
-/// before.
+/// Returns an upper bound of `class` for any schedule that is worth no less than `row` in the
+/// previous classes.
 pub(super) fn bound(problem: &Problem<'_>, lines: &[AntennaLine], row: &Row, class: usize) -> i64 {
     let max_worth = |class| {
         let numbers = problem.takes.iter().map(|take| take.row.number(class));
-        // At least 1, because prices are divided by it.
+        // Use at least 1, because prices are divided by this value.
         numbers.max().unwrap_or_default().max(1)
     };
     let bounded =
         Bounded { problem, lines, class, row, maxima: (0..class).map(max_worth).collect() };
-    // Without prices, the bound is what the antennas could do if they shared nothing.
+    // Without prices, the bound is the worth of independent antennas.
     let mut prices = Prices {
         passes: vec![0; problem.passes],
         limits: vec![0; problem.limits.len()],
@@ -68,7 +66,7 @@ pub(super) fn bound(problem: &Problem<'_>, lines: &[AntennaLine], row: &Row, cla
     let mut best = now.bound;
     let (mut share, mut patience) = (1.0_f64, PATIENCE);
     for _ in 0..ROUNDS {
-        // The step is Polyak's: the gap over the square of the subgradient's length.
+        // Use Polyak's step: the gap over the square of the subgradient's length.
         let gap = now.bound - reached * ONE;
         if best.div_euclid(ONE) <= reached || !prices.step(&now, gap as f64 * share) {
             break;
@@ -77,20 +75,20 @@ pub(super) fn bound(problem: &Problem<'_>, lines: &[AntennaLine], row: &Row, cla
         if now.bound < best {
             (best, patience) = (now.bound, PATIENCE);
         } else {
-            // Near the optimum the steps overshoot, and the bound stands still until they shrink.
+            // Near the optimum, the steps overshoot, and the bound stagnates until they shrink.
             patience -= 1;
             if patience == 0 {
                 (share, patience) = (share / 2.0, PATIENCE);
             }
         }
     }
-    // A schedule with `reached` exists, so no smaller bound is right.
+    // A schedule with `reached` exists, so a smaller bound would be wrong.
     best.div_euclid(ONE).max(reached)
 }
 
 impl Bounded<'_> {
-    /// The worth of a take less its prices, in thousandths. It is rounded up, so that the bound
-    /// stays one.
+    /// Returns the worth of a take less its prices, in thousandths. Rounds up, so that the bound
+    /// remains an upper bound.
     fn paid(&self, prices: &Prices, take: &Take) -> i64 {
         let of_pass = prices.passes.get(take.pass as usize).copied().unwrap_or_default();
         let of_limit = take.limit.and_then(|limit| prices.limits.get(limit as usize));
@@ -106,7 +104,7 @@ impl Bounded<'_> {
         let Self { problem, lines, class, row, maxima } = self;
         let paid = |_, take: &Take| Some(Row::single(CELL, self.paid(prices, take)));
         let found: Vec<_> = lines.iter().map(|line| line.best(problem, &paid)).collect();
-        // Each pass may be taken once without being over.
+        // Each pass may be taken once without an excess.
         let mut over_pass = vec![-ONE; problem.passes];
         let limits = problem.limits.iter().map(|max| -ONE * i64::from(*max));
         let mut over_limit: Vec<i64> = limits.collect();
@@ -140,8 +138,8 @@ impl Bounded<'_> {
 }
 
 impl Prices {
-    /// Moves the prices by a step whose size follows from `gap`. Returns `false` if nothing is left
-    /// to move.
+    /// Moves the prices by a step whose size follows from `gap`. Returns `false` if no price can
+    /// move.
     fn step(&mut self, round: &Round, gap: f64) -> bool {
         let prices = || self.passes.iter().chain(&self.limits).chain(&self.classes);
         let moving = round.excess.iter().zip(prices());

@@ -1,4 +1,4 @@
-//! Random cases against brute force. A million of them:
+//! Tests of random cases against brute force. A million cases:
 //!
 //! ```text
 //! AZEL_SCHEDULE_CASES=1000000 cargo test --release --lib schedule::solve -- --nocapture
@@ -10,18 +10,18 @@ use crate::station::Priority;
 
 const SEED: u64 = 15;
 
-/// The way from the end of one take to the start of another.
+/// Path from the end of one take to the start of another.
 #[derive(Clone, Copy)]
 struct Leg {
     needs_ms: i64,
     slew_ms: i64,
 }
 
-/// Slews by table: they follow no geometry, so a way over a third place may be shorter.
+/// Slews by table: they follow no geometry, so a path through a third place may be shorter.
 struct SlewTable {
     legs: Vec<Leg>,
     first_ms: Vec<Option<i64>>,
-    /// When each take begins and ends.
+    /// Start and end of each take, milliseconds.
     spans_ms: Vec<(i64, i64)>,
 }
 
@@ -172,7 +172,7 @@ impl Case {
         problem.keeps_limits(chosen).then(|| problem.row(chosen))
     }
 
-    /// The best of all choices.
+    /// Returns the best of all choices.
     fn brute_force(&self) -> Row {
         let mut best = Row::ZERO;
         let mut chosen = vec![Vec::new(); self.antennas];
@@ -250,7 +250,7 @@ fn where_not_all_is_tried_bounds_hold_and_the_best_is_often_reached() {
         let antennas = 1 + random.below(3) as usize;
         let passes = 1 + random.below(4) as usize;
         let case_ = Case::random(&mut random, antennas, passes);
-        // Sometimes too little effort is left for every neighbourhood.
+        // Some cases lack the effort for every neighbourhood.
         let problem = case_.problem(u64::from(random.below(400)));
         let lines: Vec<AntennaLine> =
             (0..antennas).map(|antenna| AntennaLine::new(&problem, antenna)).collect();

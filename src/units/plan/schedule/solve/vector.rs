@@ -1,62 +1,62 @@
 //! Several antennas, or limits of takes a day: dynamic programming over the last take of every
-//! antenna, the passes that may still be taken twice, and what is used of each limit.
+//! antenna, the passes with possible second takes, and the use of each limit.
 //!
-//! The classes of the row that is found are the best; the slews decide between equal ones only as
-//! far as the states that are kept allow.
+//! The classes of the found row are the best; the slews decide between equal rows only as far as
+//! the kept states allow.
 
 use super::{PassPart, Problem, Row};
 
-/// States beyond which the search is given up.
+/// Max number of states before the search ends without a result.
 const MAX_STATES: usize = 4_000;
-/// States below which none are compared.
+/// Max number of states that are not compared.
 const FEW_STATES: usize = 24;
 
 const NONE: u32 = u32::MAX;
 
-/// A pass that is taken while other takes of it are still to come.
+/// Pass with a take, while other takes of it may follow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Open {
     pass: u32,
-    /// The take of a first part that waits for its second one.
+    /// Take of a first part that waits for its second part.
     first: Option<u32>,
 }
 
 #[derive(Debug, Clone)]
 struct SearchState {
     row: Row,
-    /// By antenna; [`NONE`] before its first take.
+    /// Last take by antenna; [`NONE`] before its first take.
     last: Vec<u32>,
     open: Vec<Open>,
-    /// Limit, and how many takes count towards it.
+    /// Limits, each with the number of its takes.
     used: Vec<(u32, u32)>,
-    /// The last step of the trail.
+    /// Last step of the trail.
     step: u32,
 }
 
-/// Endings at a take: nothing more of its pass, or of its limit, comes after it.
+/// Endings at a take: no later take belongs to its pass, or to its limit.
 #[derive(Debug, Clone, Copy, Default)]
 struct Closes {
     pass: bool,
     limit: bool,
 }
 
-/// The takes of a search.
+/// Takes of a search.
 pub(super) struct Scope {
-    /// Takes that are free, or that stay: every schedule has those.
+    /// Takes, each free or fixed (`true`): every schedule has the fixed ones.
     pub(super) takes: Vec<(u32, bool)>,
-    /// How many free takes may count towards each limit.
+    /// Max number of free takes towards each limit.
     pub(super) left: Vec<u32>,
-    /// The take of each antenna before the search begins.
+    /// Take of each antenna before the start of the search.
     pub(super) before: Vec<Option<u32>>,
 }
 
-/// The best takes by antenna; `None` if there are too many states, or if what the search costs is
-/// more than is left of `effort`, from which it is taken.
+/// Returns the best takes by antenna, and subtracts the cost of the search from `effort`. Returns
+/// `None` if there are too many states, or if the cost exceeds the remaining `effort`.
 pub(super) fn best(problem: &Problem<'_>, scope: Scope, effort: &mut u64) -> Option<Vec<Vec<u32>>> {
     let Scope { takes: mut order, left, before } = scope;
     let key =
         |take: u32| problem.take(take).map(|entry| (entry.from_ms, entry.to_ms, entry.antenna));
-    // A state knows only the last take of each antenna, so takes must come by their start.
+    // A state knows only the last take of each antenna, so process takes by their start.
     order.sort_by_key(|(take, _)| (key(*take), *take));
     let closes = closes(problem, &order);
 
@@ -70,7 +70,7 @@ pub(super) fn best(problem: &Problem<'_>, scope: Scope, effort: &mut u64) -> Opt
 }
 
 impl StateSearch<'_> {
-    /// The last step of the best trail.
+    /// Returns the last step of the best trail.
     fn run(
         &mut self,
         start: SearchState,
@@ -100,7 +100,7 @@ impl StateSearch<'_> {
                     state.open.retain(|open| open.pass != entry.pass);
                 }
             }
-            // States that differ only in a limit that no longer matters become equal.
+            // States that differ only in an irrelevant limit become equal.
             if let Some(limit) = entry.limit.filter(|_| closes.limit) {
                 for state in &mut states {
                     state.used.retain(|(used, _)| *used != limit);
@@ -145,16 +145,16 @@ fn closes(problem: &Problem<'_>, order: &[(u32, bool)]) -> Vec<Closes> {
 
 struct StateSearch<'a> {
     problem: &'a Problem<'a>,
-    /// How many takes that are free may count towards each limit.
+    /// Max number of free takes towards each limit.
     left: Vec<u32>,
-    /// The step before, and the take.
+    /// Previous step, and the take.
     trail: Vec<(u32, u32)>,
     effort: u64,
 }
 
 impl StateSearch<'_> {
-    /// `state` with one more take; `None` where it does not fit. One that stays counts towards no
-    /// limit, and its pass is taken as it is.
+    /// Returns `state` with one more take; `None` if it does not fit. A fixed take counts towards
+    /// no limit, and its pass needs no check.
     fn extended(&mut self, state: &SearchState, take: u32, stays: bool) -> Option<SearchState> {
         let entry = self.problem.take(take)?;
         let antenna = entry.antenna as usize;
@@ -203,13 +203,13 @@ impl StateSearch<'_> {
         Some(new)
     }
 
-    /// Drops each state that another one can follow wherever it goes, and is worth as much.
+    /// Drops each state for which another state allows the same continuations and is worth as much.
     fn prune(&mut self, states: &mut Vec<SearchState>, now_ms: i64) {
         let problem = self.problem;
         let free = |(antenna, last): (usize, &u32)| {
             let longest_ms = problem.slews.longest_ms(antenna);
             let ended = |last: u32| problem.take(last).map_or(i64::MIN, |take| take.to_ms);
-            // Where it stands at first is not free: the first slew may not fit any more.
+            // An antenna without a take is not free: its first slew may no longer fit.
             let is_free = *last != NONE && ended(*last) + longest_ms <= now_ms;
             if is_free { None } else { Some(*last) }
         };
@@ -220,7 +220,7 @@ impl StateSearch<'_> {
                 (state, busy)
             })
             .collect();
-        // The best come first: a state can only be beaten by one that is worth as much.
+        // Sort the best first: only a state with at least the same worth can dominate another.
         sorted.sort_by_key(|(state, _)| std::cmp::Reverse(state.row));
         let mut retained: Vec<(SearchState, Vec<Option<u32>>)> = Vec::new();
         for (state, busy) in sorted {

@@ -1,4 +1,4 @@
-//! Random numbers and real satellites for tests: the same everywhere.
+//! Random numbers and real satellites for tests, equal on all platforms.
 
 use jiff::Timestamp;
 
@@ -14,7 +14,7 @@ use crate::{
     },
 };
 
-/// Splitmix64.
+/// Splitmix64 generator.
 pub(in crate::plan) struct Random(u64);
 
 impl Random {
@@ -30,14 +30,14 @@ impl Random {
         mixed ^ (mixed >> 31)
     }
 
-    /// A number from 0 to below `end`.
+    /// Returns a random number from 0 to below `end`.
     pub(in crate::plan) fn below(&mut self, end: u32) -> u32 {
         (self.next() % u64::from(end)) as u32
     }
 }
 
-/// The antennas of the demo station: crossed axes, a rotator over the whole circle, and one over
-/// half of it.
+/// Returns the antennas of the demo station: crossed axes, a rotator over the whole circle, and a
+/// rotator over half of it.
 pub(in crate::plan) fn three_antennas() -> Station {
     let mut antennas = vec![
         Antenna::satrak("Satrak", ""),
@@ -47,8 +47,8 @@ pub(in crate::plan) fn three_antennas() -> Station {
     for (antenna, number) in antennas.iter_mut().zip(1..) {
         antenna.id = AntennaId(number);
     }
-    // Program track keeps away from both ends: its targets lie from 0 to 360 degrees, as in the days
-    // that a general solver has solved.
+    // Program track keeps away from both ends: its targets lie from 0 to 360 degrees, like in the
+    // days that a general solver has solved.
     antennas[1].mount = Mount::AzEl {
         azimuth_from_deg: -2.5,
         azimuth_to_deg: 362.5,
@@ -61,12 +61,12 @@ pub(in crate::plan) fn three_antennas() -> Station {
         elevation_from_deg: 0.0,
         elevation_to_deg: 90.0,
     };
-    // So were these days: without refraction.
+    // These days were also solved without refraction.
     let site = Station::default().site.airless();
     Station { site, antennas, ..Station::default() }
 }
 
-/// The same antennas with other travels, rates and beams.
+/// Returns the same antennas with other travels, rates and beams.
 pub(in crate::plan) fn any_three_antennas(random: &mut Random) -> Station {
     let mut station = three_antennas();
     let mut uniform =
@@ -81,7 +81,7 @@ pub(in crate::plan) fn any_three_antennas(random: &mut Random) -> Station {
             Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } => {
                 let travel_deg = *azimuth_to_deg - *azimuth_from_deg;
                 *azimuth_from_deg = uniform(-180.0, 180.0);
-                // An axis that turns all round reaches some directions twice.
+                // An axis with a full turn reaches some directions twice.
                 let more_deg = if travel_deg < 360.0 { 0.0 } else { uniform(0.0, 300.0) };
                 *azimuth_to_deg = *azimuth_from_deg + travel_deg + more_deg;
             }
@@ -123,16 +123,16 @@ pub(in crate::plan) fn planned(station: &Station, start: Timestamp) -> Vec<Plann
     station.antennas.iter().map(planned_antenna).collect()
 }
 
-/// Satellites with a priority and what is wanted of them.
+/// Satellites with a priority and the operator's choice.
 pub(in crate::plan) struct DrawnSatellite {
     pub(in crate::plan) elements: Elements,
     pub(in crate::plan) priority: Priority,
     pub(in crate::plan) limits: PassLimits,
-    /// The operator's choice for all its passes.
+    /// Operator's choice for all its passes.
     pub(in crate::plan) take: Option<Take>,
 }
 
-/// So many satellites in low orbits, each with a priority.
+/// Returns `count` satellites in low orbits, each with a priority.
 pub(in crate::plan) fn low_satellites(random: &mut Random, count: usize) -> Vec<DrawnSatellite> {
     let catalog: Catalog = bundled().unwrap();
     let low: Vec<&Elements> = catalog

@@ -1,8 +1,8 @@
-//! Fifty random days, after them ten times some hours in which passes are taken in part and handed
-//! over, then two hundred days of other antennas and rules, with a limit of passes a day for a
-//! quarter of the satellites. They are compared with a MILP of the same data, solved by `HiGHS`: its
-//! results stand in `tests/data/schedule_milp.csv`. `cargo test` looks at every tenth day; all of
-//! them, and how they are solved again:
+//! Comparison of schedules with a MILP of the same data, solved by `HiGHS`; its results are in
+//! `tests/data/schedule_milp.csv`. The cases are fifty random days, then ten times some hours with
+//! partial passes and hand-overs. Two hundred days of other antennas and rules follow, with a limit
+//! of passes a day for a quarter of the satellites. `cargo test` checks every tenth day. These
+//! commands check all days, and solve them again:
 //!
 //! ```text
 //! AZEL_SCHEDULE_EVERY=1 cargo test --release --lib days_are_as_good -- --nocapture
@@ -23,7 +23,7 @@ const DAYS_IN_PARTS: u64 = 10;
 const DAYS_WITH_LIMITS: u64 = 200;
 const RESULTS: &str = include_str!("../../../../../tests/data/schedule_milp.csv");
 
-/// A day with three or four antennas of any kind, by any rule, with limits.
+/// Calls `check` for a day with three or four antennas of any kind, by any rule, with limits.
 fn day_with_limits(day: u64, check: impl FnOnce(&Request<'_>)) {
     let mut random = Random::new(SEED + 100 + day);
     let mut station = any_three_antennas(&mut random);
@@ -46,8 +46,8 @@ fn day_with_limits(day: u64, check: impl FnOnce(&Request<'_>)) {
     check(&Request { choose_by, ..request(&antennas, &list) });
 }
 
-/// A day, or some hours in parts, with so many satellites that each antenna has to choose, every
-/// fifth time with a limit of passes for some of them.
+/// Calls `check` for a day, or for some hours with partial passes. The number of satellites forces
+/// each antenna to choose. Every fifth case limits the passes of some satellites.
 fn day(day: u64, check: impl FnOnce(&Request<'_>)) {
     if day >= DAYS + DAYS_IN_PARTS {
         return day_with_limits(day, check);
@@ -73,7 +73,7 @@ fn written(day: u64, request: &Request<'_>) -> serde_json::Value {
     let fits = |a: usize, b: usize| {
         board.takes[a].to_ms <= board.takes[b].from_ms && board.legs.slew_ms(a, b).is_some()
     };
-    // The second part of a pass goes on, on another antenna, when the first has ended.
+    // The second part of a pass continues on another antenna after the end of the first.
     let go_on = |a: usize, b: usize| {
         let (first, second) = (&board.takes[a], &board.takes[b]);
         first.antenna != second.antenna && first.to_ms <= second.from_ms
@@ -136,7 +136,7 @@ fn days_are_as_good_as_a_general_solver_makes_them() {
         day(number as u64, |request| {
             let schedule = plan(request);
             let reached = worth(&schedule);
-            // Where the rule knows no priorities, one class follows that of *Always*.
+            // If the rule ignores priorities, a single class follows *Always*.
             let best = &best[..reached.len()];
             assert!(reached[..] <= *best, "day {number}: {reached:?} {best:?}");
             let first = reached.iter().zip(best).find(|(reached, best)| reached != best);

@@ -1,4 +1,4 @@
-//! One scenario for each check. Each returns `true` if it ends as it should.
+//! Scenarios, one for each check. Each returns `true` on success.
 
 use std::time::Duration;
 
@@ -21,7 +21,7 @@ fn turn_to(azimuth_deg: f64) -> Command {
     Command::Position { azimuth: Some(Angle::from_degrees(azimuth_deg)), elevation: None }
 }
 
-/// Tracks a direction that stands, with the azimuth beside it, degrees.
+/// Returns a track of a fixed direction with an azimuth offset of `beside_deg`, degrees.
 fn fixed(azimuth_deg: f64, elevation_deg: f64, beside_deg: f64) -> Command {
     let target = Target::Fixed(AzEl::from_degrees(azimuth_deg, elevation_deg));
     let track = ProgramTrack::new(target, Station::default().site, Vec::new());
@@ -40,14 +40,14 @@ fn is_forbidden(event: &Event) -> bool {
     matches!(event, Event::Safety(Safety::Forbidden { .. }))
 }
 
-/// The path of the pass is judged, and the command taken.
+/// Checks that a worker judges the path of the pass and the session then accepts the command.
 pub(super) async fn watch_judging(checks: Checks) -> bool {
     let scene = satrak(checks).read().await;
     scene.send(Command::Track(Box::new(testing::pass())));
     scene.shows(5.0, |shown| shown.intent == Intent::Track).await
 }
 
-/// The unit holds the pass, and its program is started.
+/// Checks that the session starts the program once the unit has the pass.
 pub(super) async fn take_events(checks: Checks) -> bool {
     let scene = satrak(checks).read().await;
     scene.send(Command::Track(Box::new(testing::pass())));
@@ -59,7 +59,7 @@ pub(super) async fn report_found(checks: Checks) -> bool {
     genius(checks).tells(5.0, |event| matches!(event, Event::Connected(_))).await
 }
 
-/// After an outage the unit is as before, and the track goes on.
+/// Checks that the track continues after an outage of an unchanged unit.
 pub(super) async fn watch_likeness(checks: Checks) -> bool {
     let scene = satrak_after(30.0, checks).read().await;
     let OnBoardPass { target, elements, site, .. } = testing::pass();
@@ -81,7 +81,7 @@ pub(super) async fn watch_program(checks: Checks) -> bool {
     scene.tells(5.0, |event| *event == Event::StartedByItself).await
 }
 
-/// Somebody turns the antenna and leaves it there.
+/// Checks the alarm when somebody turns the antenna and leaves it there.
 pub(super) async fn watch_hands(checks: Checks) -> bool {
     let mut scene = satrak(checks).read().await;
     scene.seconds(5.0).await;
@@ -89,7 +89,8 @@ pub(super) async fn watch_hands(checks: Checks) -> bool {
     scene.tells(15.0, |event| matches!(event, Event::Safety(Safety::ForeignHands { .. }))).await
 }
 
-/// The reply to a motion is lost, and nothing moves: the antenna is there already.
+/// Checks the report of a lost reply to a motion that turns nothing, because the antenna is already
+/// there.
 pub(super) async fn resolve_doubt(checks: Checks) -> bool {
     let mut scene = genius(checks).read().await;
     scene.send(Command::Hold);
@@ -100,7 +101,7 @@ pub(super) async fn resolve_doubt(checks: Checks) -> bool {
     scene.tells(6.0, |event| matches!(event, Event::Unanswered(_))).await
 }
 
-/// A jog ends whose lease ran out while the link took no bytes: the next one came too late for it.
+/// Checks the end of a jog whose lease expired while the link accepted no bytes.
 pub(super) async fn watch_jog(checks: Checks) -> bool {
     let mut scene = satrak(checks).read().await;
     let jog = || scene.send(Command::Jog { rates_deg_s: [1.0, 0.0] });
@@ -118,7 +119,7 @@ pub(super) async fn watch_jog(checks: Checks) -> bool {
     scene.tells(0.0, |event| *event == Event::JogLeaseOver).await
 }
 
-/// A rotator does not turn.
+/// Checks the alarm for a rotator that does not turn.
 pub(super) async fn watch_effect(checks: Checks) -> bool {
     let mut scene = genius(checks).read().await;
     let stuck = rotator_genius::Fault::Stuck(crate::protocol::rotator_genius::RotatorNumber::One);
@@ -127,7 +128,7 @@ pub(super) async fn watch_effect(checks: Checks) -> bool {
     scene.tells(20.0, |event| matches!(event, Event::Safety(Safety::NoEffect { .. }))).await
 }
 
-/// The drives are far too slow for the target.
+/// Checks the alarm for drives that are far too slow for the target.
 pub(super) async fn watch_pointing(checks: Checks) -> bool {
     let mut scene = satrak(checks).read().await;
     scene.unit.set_trouble(Trouble::SlowDrives([0.02; 2]), true);
@@ -135,7 +136,7 @@ pub(super) async fn watch_pointing(checks: Checks) -> bool {
     scene.tells(60.0, |event| matches!(event, Event::Safety(Safety::OffTarget { .. }))).await
 }
 
-/// The second step is not refused.
+/// Checks that the session does not refuse the second step.
 pub(super) async fn watch_step(checks: Checks) -> bool {
     let scene = satrak(checks).read().await;
     scene.send(Command::Manual);
@@ -152,7 +153,7 @@ pub(super) async fn watch_halt(checks: Checks) -> bool {
     scene.tells(5.0, |event| *event == Event::Stopped).await
 }
 
-/// The computer may sleep once a jog has been ended for it.
+/// Checks that the computer may sleep after the session has ended a jog.
 pub(super) async fn let_sleep(checks: Checks) -> bool {
     let scene = satrak(checks).read().await;
     scene.send(Command::Manual);
@@ -161,7 +162,7 @@ pub(super) async fn let_sleep(checks: Checks) -> bool {
     timeout(Duration::from_millis(2900), scene.sleeps.all_quiet()).await.is_ok()
 }
 
-/// Somebody turns the antenna by hand, while its drives stand.
+/// Checks the alarm when somebody turns the antenna while its drives stand.
 pub(super) async fn watch_rest(checks: Checks) -> bool {
     let mut scene = satrak(checks).read().await;
     scene.seconds(5.0).await;
@@ -175,7 +176,8 @@ pub(super) async fn watch_place(checks: Checks) -> bool {
     scene.shows(5.0, |shown| shown.breach.is_some()).await
 }
 
-/// After a track with an offset the antenna points where its axes do, not at the target.
+/// Checks that the gate uses the direction of the axes after a track with an offset, not the
+/// target.
 pub(super) async fn watch_offsets(checks: Checks) -> bool {
     let mut scene = satrak(checks).read().await;
     scene.send(fixed(110.0, 40.0, 8.0));
@@ -192,7 +194,7 @@ pub(super) async fn watch_bounds(checks: Checks) -> bool {
     scene.tells(5.0, is_forbidden).await
 }
 
-/// A motion that nobody has stopped is over.
+/// Checks that the session detects the end of a motion without a STOP.
 pub(super) async fn watch_standstill(checks: Checks) -> bool {
     let scene = genius(checks).read().await;
     scene.send(turn_to(160.0));
@@ -215,7 +217,7 @@ pub(super) async fn watch_auto_track(checks: Checks) -> bool {
     scene.sent("TRACK_AUTO_ENABLE=,0") > 0
 }
 
-/// An offset of the unit's own track comes into force.
+/// Checks that an offset of the unit's own track takes effect.
 pub(super) async fn watch_unit_offsets(checks: Checks) -> bool {
     let scene = satrak_after(30.0, checks).read().await;
     if !scene.tracks().await {
@@ -226,7 +228,7 @@ pub(super) async fn watch_unit_offsets(checks: Checks) -> bool {
     scene.shows(20.0, is_on).await
 }
 
-/// A STOP that is long over gives the session nothing to do.
+/// Checks that an old STOP causes no further work.
 pub(super) async fn forget_old_stop(checks: Checks) -> bool {
     let scene = genius(checks).read().await;
     let start = scene.readings();
@@ -257,7 +259,7 @@ pub(super) async fn watch_tracking(checks: Checks) -> bool {
     scene.shows(5.0, is_moving).await
 }
 
-/// The unit tracks by itself what is known here.
+/// Checks a unit that tracks a known satellite on its own.
 pub(super) async fn watch_on_board(checks: Checks) -> bool {
     let scene = satrak_after(30.0, checks).read().await;
     scene.starts_by_itself().await;
@@ -274,7 +276,8 @@ pub(super) async fn watch_silence(checks: Checks) -> bool {
     is_told && !matches!(scene.shown().link, LinkState::Lost { .. })
 }
 
-/// Time from the command of a second motion until it is sent, which the first one delays.
+/// Returns the time from the command of a second motion until its send time; the first motion
+/// delays it.
 pub(super) async fn start_after_halt(checks: Checks) -> Duration {
     let scene = genius(checks).read().await;
     scene.send(turn_to(100.0));

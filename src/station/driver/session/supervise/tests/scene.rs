@@ -1,4 +1,4 @@
-//! A session with a simulated unit, which may lack a check.
+//! Session with a simulated unit; the session may lack a check.
 
 use std::{
     io,
@@ -35,13 +35,15 @@ use crate::{
     station::{Antenna, KeepOut, Resume, Station},
 };
 
-/// Interval of looks.
+/// Interval between checks.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Twice as many bytes, as many as a stalled link still takes, are less than any request has.
+/// Buffer size of the link. A stalled link still accepts twice this number of bytes, which is less
+/// than any request.
 const LINK_BYTES: usize = 4;
 
-/// Carries the bytes of a link to the unit, unless it is stalled, and those of the unit back.
+/// Carries the bytes of a link to the unit, unless the link is stalled, and the unit's replies
+/// back.
 async fn relay<U: Unit>(link: DuplexStream, unit: Control<U>, is_stalled: Arc<AtomicBool>) {
     let (near, far) = tokio::io::duplex(4096);
     tokio::spawn(async move { unit.serve(far).await });
@@ -67,16 +69,16 @@ pub(super) struct Scene<U: Unit> {
     antenna: Antenna,
     network_is_off: Arc<AtomicBool>,
     link_is_stalled: Arc<AtomicBool>,
-    /// How often the session has read its clock.
+    /// Number of times that the session has read its clock.
     readings: Arc<AtomicUsize>,
 }
 
-/// A Satrak 90 s before the pass that it holds elements of.
+/// Returns a Satrak 90 s before its pass.
 pub(super) fn satrak(checks: Checks) -> Scene<impl Unit<Request = String, Place = [f64; 2]>> {
     satrak_after(-90.0, checks)
 }
 
-/// A Satrak this long after the beginning of the pass, seconds.
+/// Returns a Satrak `after_s` seconds after the beginning of its pass.
 pub(super) fn satrak_after(
     after_s: f64,
     checks: Checks,
@@ -90,7 +92,7 @@ pub(super) fn satrak_after(
     scene
 }
 
-/// A Rotator Genius at 173 degrees, and at the horizon.
+/// Returns a Rotator Genius at an azimuth of 173 degrees and at the horizon.
 pub(super) fn genius(
     checks: Checks,
 ) -> Scene<impl Unit<Request = String, Fault = rotator_genius::Fault>> {
@@ -145,7 +147,7 @@ impl<U: Unit> Scene<U> {
         sleep(Duration::try_from_secs_f64(seconds).unwrap()).await;
     }
 
-    /// Returns `true` once the snapshot is so, within these seconds.
+    /// Returns `true` once a snapshot meets the condition within `within_s` seconds.
     pub(super) async fn shows(&self, within_s: f64, is_so: impl Fn(&Snapshot) -> bool) -> bool {
         let end = tokio::time::Instant::now() + Duration::try_from_secs_f64(within_s).unwrap();
         while !is_so(&self.shown()) {
@@ -157,14 +159,14 @@ impl<U: Unit> Scene<U> {
         true
     }
 
-    /// Waits until the unit was read.
+    /// Waits for the first reading of the unit.
     pub(super) async fn read(self) -> Self {
         assert!(self.shows(10.0, |shown| shown.state.measured.is_some()).await, "it is not read");
         self.seconds(8.0).await;
         self
     }
 
-    /// Returns `true` once this was told, within these seconds.
+    /// Returns `true` once a matching event arrives within `within_s` seconds.
     pub(super) async fn tells(&mut self, within_s: f64, is_it: impl Fn(&Event) -> bool) -> bool {
         let end = tokio::time::Instant::now() + Duration::try_from_secs_f64(within_s).unwrap();
         loop {
@@ -180,7 +182,7 @@ impl<U: Unit> Scene<U> {
         }
     }
 
-    /// Switches the network off or on; the antenna goes on.
+    /// Switches the network off or on; the antenna continues.
     pub(super) fn set_off(&self, is_off: bool) {
         self.network_is_off.store(is_off, Ordering::Relaxed);
         if is_off {
@@ -188,12 +190,12 @@ impl<U: Unit> Scene<U> {
         }
     }
 
-    /// Lets the link take no bytes, or take them again.
+    /// Stalls the link so that it accepts no bytes, or ends the stall.
     pub(super) fn stall(&self, is_stalled: bool) {
         self.link_is_stalled.store(is_stalled, Ordering::Relaxed);
     }
 
-    /// Puts a mast in the way, by its corners in azimuth and elevation, degrees.
+    /// Adds a mast with these corners in azimuth and elevation, degrees.
     pub(super) fn put_mast(&self, corners_deg: &[(f64, f64)]) {
         let mast = KeepOut {
             name: "mast".to_owned(),
@@ -211,13 +213,13 @@ impl<U: Unit> Scene<U> {
         self.readings.load(Ordering::Relaxed)
     }
 
-    /// Lets the unit track the pass on board. Returns `true` once it does.
+    /// Starts the on-board track of the pass. Returns `true` once the unit tracks.
     pub(super) async fn tracks(&self) -> bool {
         self.send(Command::Track(Box::new(testing::pass())));
         self.shows(60.0, |shown| shown.intent == Intent::Track && !shown.pending).await
     }
 
-    /// Another program starts the unit on the pass that it holds.
+    /// Starts the stored pass of the unit like another program.
     pub(super) async fn starts_by_itself(&self) {
         self.tracks().await;
         self.send(Command::Standby);
@@ -231,7 +233,7 @@ impl<U: Unit> Scene<U> {
 }
 
 impl<U: Unit<Request = String>> Scene<U> {
-    /// Number of requests that begin like this.
+    /// Returns the number of requests with this beginning.
     pub(super) fn sent(&self, start: &str) -> usize {
         let received = self.unit.received();
         received.iter().filter(|(_, request)| request.starts_with(start)).count()

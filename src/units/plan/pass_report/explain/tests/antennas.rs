@@ -1,4 +1,4 @@
-//! Antennas that track real satellites with one thing wrong. They share no code with the fit.
+//! Antennas that track real satellites with one fault. They share no code with the fit.
 
 use glam::{DQuat, DVec3};
 use jiff::Timestamp;
@@ -14,18 +14,18 @@ use crate::{
     station::Mount,
 };
 
-/// A number from -1 to 1, but not close to zero.
+/// Returns a number from -1 to 1, but not close to zero.
 pub(super) fn signed(random: &mut Random) -> f64 {
     let size = 0.15 + 0.85 * f64::from(random.below(10_000)) / 10_000.0;
     if random.below(2) == 0 { size } else { -size }
 }
 
-/// From the normal distribution, nearly.
+/// Returns a number from an approximate normal distribution.
 pub(super) fn normal(random: &mut Random) -> f64 {
     (0..12).map(|_| f64::from(random.below(1_000_000)) / 1e6).sum::<f64>() - 6.0
 }
 
-/// Draws one of eight causes, which an antenna on an azimuth/elevation mount has.
+/// Draws one of eight causes of an antenna on an azimuth/elevation mount.
 pub(super) fn drawn(random: &mut Random, flight: &Flight) -> (&'static str, Cause) {
     match random.below(8) {
         0 => (
@@ -44,7 +44,8 @@ pub(super) fn drawn(random: &mut Random, flight: &Flight) -> (&'static str, Caus
     }
 }
 
-/// Angles of the axes of a mount that points at `direction`; `azimuth_deg` goes on over north.
+/// Returns the angles of the axes of a mount that points at `direction`; `azimuth_deg` continues
+/// over north.
 pub(super) fn axes_deg(mount: Mount, direction: AzEl, azimuth_deg: f64) -> [f64; 2] {
     match mount {
         Mount::AzEl { .. } => [azimuth_deg, direction.elevation.degrees()],
@@ -57,7 +58,7 @@ pub(super) fn axes_deg(mount: Mount, direction: AzEl, azimuth_deg: f64) -> [f64;
     }
 }
 
-/// Where the axes of a mount point.
+/// Returns the direction of the axes of a mount.
 pub(super) fn pointed(mount: Mount, [first, second]: [f64; 2]) -> AzEl {
     match mount {
         Mount::AzEl { .. } => AzEl { azimuth: deg(first).wrapped_360(), elevation: deg(second) },
@@ -71,7 +72,7 @@ pub(super) fn pointed(mount: Mount, [first, second]: [f64; 2]) -> AzEl {
     }
 }
 
-/// Directions that an antenna with this cause measures, without noise.
+/// Returns the directions that an antenna with this cause measures, without noise.
 pub(super) fn measured(
     flight: &Flight,
     mount: Mount,
@@ -83,7 +84,7 @@ pub(super) fn measured(
     measured_of(flight, mount, &directions, cause, other)
 }
 
-/// Directions that an antenna measures with this cause as well, where it would measure `directions`.
+/// Returns `directions` as an antenna with this additional cause would measure them.
 pub(super) fn measured_of(
     flight: &Flight,
     mount: Mount,
@@ -162,7 +163,7 @@ fn elsewhere(site: Site, north_km: f64, east_km: f64) -> Site {
     Site::new(latitude_deg, longitude_deg, site.altitude_m()).unwrap().airless()
 }
 
-/// Directions with this much turned on the sky, degrees: to the right and up.
+/// Rotates a direction on the sky by these angles, degrees: to the right and up.
 pub(super) fn shaken(direction: AzEl, right_deg: f64, up_deg: f64) -> AzEl {
     let azimuth =
         direction.azimuth + deg(right_deg / direction.elevation.radians().cos().max(0.02));

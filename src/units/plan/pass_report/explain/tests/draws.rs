@@ -1,4 +1,4 @@
-//! Drawn antennas, without a fault and with one.
+//! Tests with random antennas, with and without a fault.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ use crate::{
 };
 use jiff::Timestamp;
 
-/// `AZEL_SEED` and `AZEL_CASES` set others.
+/// Default seed; `AZEL_SEED` and `AZEL_CASES` set other values.
 const SEED: u64 = 45;
 const CASES: u64 = 100;
 
@@ -32,7 +32,7 @@ fn share(random: &mut Random) -> f64 {
 struct TrackNoise {
     white_deg: f64,
     wind_deg: f64,
-    /// Time in which the wind is forgotten, seconds.
+    /// Correlation time of the wind, seconds.
     lasts_s: f64,
 }
 
@@ -43,7 +43,7 @@ impl TrackNoise {
         Self { white_deg, wind_deg, lasts_s: 1.0 + 29.0 * share(random) }
     }
 
-    /// Root mean square of both angles together.
+    /// Returns the root mean square of both angles together, degrees.
     fn rms_deg(&self) -> f64 {
         (2.0 * (self.white_deg.powi(2) + self.wind_deg.powi(2))).sqrt()
     }
@@ -75,7 +75,7 @@ const KINDS: [&str; 11] = [
     "elements",
 ];
 
-/// A cause of this kind whose size is about one degree.
+/// Returns a cause of this kind with a size of about one degree.
 fn cause(kind: &str, flight: &Flight, mount: Mount, random: &mut Random) -> Cause {
     let axes = match mount {
         Mount::AzEl { .. } => [Axis::Azimuth, Axis::Elevation],
@@ -105,7 +105,7 @@ fn cause(kind: &str, flight: &Flight, mount: Mount, random: &mut Random) -> Caus
     }
 }
 
-/// The rate that one axis needs, or the faster one of both.
+/// Returns the rate that one axis needs, or the faster of both, degrees per second.
 fn needed_deg_s(flight: &Flight, mount: Mount, axis: Option<usize>) -> f64 {
     let mut azimuth_deg = flight.direction_at(flight.pass.aos.time).azimuth.degrees();
     let mut before: Option<(AzEl, [f64; 2])> = None;
@@ -139,7 +139,7 @@ fn explained(
 }
 
 /// `AZEL_SEED=1 AZEL_CASES=1000 cargo test --release -p azel-units --lib explain::tests::draws --
-/// --nocapture` is the long form of both.
+/// --nocapture` runs the long form of both tests.
 #[test]
 fn no_cause_is_named_without_one() {
     let (seed, cases) = (number("AZEL_SEED", SEED), number("AZEL_CASES", CASES));
@@ -170,7 +170,7 @@ fn no_cause_is_named_without_one() {
 fn a_single_cause_is_named_or_among_three() {
     let (seed, cases) = (number("AZEL_SEED", SEED), number("AZEL_CASES", CASES));
     let flights = flights();
-    // By kind: cases, named, named alone.
+    // The columns count by kind: cases, named, named alone.
     let mut table = BTreeMap::<&str, [u32; 3]>::new();
     for case in seed..seed + cases {
         let mut random = Random::new(case);
@@ -197,7 +197,7 @@ fn a_single_cause_is_named_or_among_three() {
         };
         let noisy_track = noise.on(&exact, &mut random);
         let others = [(flight.elements.epoch(), other)];
-        // The error spoils the pass, the noise does not.
+        // The error spoils the pass, but the noise does not.
         let half_beam_deg =
             (effect_deg * (0.4 + 0.6 * share(&mut random))).max(2.0 * noise.rms_deg());
         let found = explained(flight, mount, half_beam_deg, &noisy_track, &others);
@@ -231,7 +231,7 @@ fn a_single_cause_is_named_or_among_three() {
     assert!(total(1) >= 0.95 * total(0), "{} of {}", total(1), total(0));
 }
 
-/// Returns `true` if the axis at fault is named, or both.
+/// Returns `true` if the explanation names the faulty axis, or both.
 fn is_of_axis(found: &Explanation, cause: &Cause) -> bool {
     let axis = |cause: &Cause| match *cause {
         Cause::SlowDrives { axis, .. } | Cause::Stuck { axis, .. } => axis,
