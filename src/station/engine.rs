@@ -1,6 +1,6 @@
-//! A running station on its own thread: antennas, elements, passes, alarms and the work on
-//! units. Clients send [`Command`](crate::contract::Command)s and take [`Snapshot`]s and [`Event`]s;
-//! the station runs without any just as well.
+//! Station on its own thread: antennas, elements, passes, alarms and the work on units. Clients
+//! send [`Command`](crate::contract::Command)s and take [`Snapshot`]s and [`Event`]s. The station
+//! also runs without clients.
 
 pub mod alarms;
 pub mod antenna;
@@ -108,20 +108,20 @@ use crate::{
     station::{LockOuts, Station},
 };
 
-/// Reports of the sessions are taken at most this often. A change still shows with the next
-/// frame of a window.
+/// Min time between two readings of the sessions' reports. A window still shows a change in its
+/// next frame.
 const BREATH: Duration = Duration::from_millis(10);
 
-/// A motion request that has waited this long is not carried out.
+/// Max age of a motion request; the engine refuses an older one.
 const TOO_LATE: Duration = Duration::from_secs(2);
 
-/// Channel for events to the client.
+/// Channel of events to the client, with its wake.
 struct Outbox {
     events: mpsc::Sender<Event>,
     wake: Wake,
 }
 
-/// A running station, on its thread.
+/// Running station on its thread.
 struct Engine {
     /// UTC of this turn.
     now: Timestamp,
@@ -129,7 +129,7 @@ struct Engine {
     steady: Instant,
     time_sync: TimeSync,
     station: Arc<Station>,
-    /// When its file was written last.
+    /// Time of the last write of the station file.
     station_saved_at: Option<Timestamp>,
     catalog: CatalogState,
     catalog_revision: u64,
@@ -137,7 +137,7 @@ struct Engine {
     antennas: Vec<Antenna>,
     /// Number of sessions opened so far.
     sessions: u64,
-    /// The antennas of the first station are open.
+    /// `true` once the antennas of the first station are open.
     has_started: bool,
     attention: Attention,
     searches: Searches,
@@ -149,7 +149,7 @@ struct Engine {
     day: Vec<DayLine>,
     last_run: LastRun,
     learned_drives: LearnedDrives,
-    /// The upload that a rule has begun.
+    /// Upload that a rule has begun.
     rule_upload: Option<RuleUpload>,
     uploads: Uploads,
     source_tests: SourceTests,
@@ -157,8 +157,8 @@ struct Engine {
     alarms: Alarms,
     copies: Copies,
     closing: Option<Closing>,
-    // Drop order: the sessions end before their thread does, that before their record, and that
-    // before their units.
+    // Drop order: sessions before their thread, the thread before the record, the record before the
+    // simulated units.
     driver: Driver,
     recording: Recording,
     demo: Option<DemoStation>,
@@ -169,93 +169,93 @@ struct Engine {
     settings_path: Option<PathBuf>,
     places: Places,
     elements_job: Option<Job<Outcome>>,
-    /// The elements came with the settings, and no sources are read.
+    /// `true` if the elements came with the settings; Azel then reads no sources.
     has_given_elements: bool,
-    /// The station whose orders of sources the last reading applied.
+    /// Station whose source priorities the last reading applied.
     ordered_for: Arc<Station>,
-    /// Names of the sources whose servers are asked with a typed password once no other work on
+    /// Names of sources with a typed password. Azel asks their servers once no other work on
     /// elements is under way.
     typed_passwords: Vec<String>,
     passwords: Option<Passwords>,
-    /// When servers were last asked without a client.
+    /// Time of the last request to servers without a client.
     refreshed_at: Option<Timestamp>,
     older_sets: Option<Arc<OlderSets>>,
     older_reading: older_sets::Reading,
     record_reading: RecordReading,
     pointing_work: PointingWork,
-    /// The last reading of the elements broke off.
+    /// `true` if the last reading of the elements broke off.
     elements_broke_off: bool,
     copy_work: CopyWork,
     upload_runner: uploads::Runner,
     source_test_runner: source_tests::Runner,
     link_test_runner: link_tests::Runner,
     lock_outs: LockOuts,
-    /// `None` if nothing is to be claimed.
+    /// Claims in use; `None` if claims are switched off.
     claims: Option<Result<ClaimsInUse, NoClaims>>,
     station_claim: StationClaim,
-    /// Sessions that only pay debts, with the claims on their units.
+    /// Sessions that only settle debts, with the claims on their units.
     left_units: Vec<(Unit, Weak<UnitClaim>)>,
-    /// The second of the clock in which the claims were last checked.
+    /// Clock second of the last check of the claims.
     claims_looked_at: i64,
-    /// The station file could not be read: only the operator may replace it.
+    /// `true` if the station file could not be read: only the operator may replace it.
     settings_unread: bool,
-    /// The request that is carried out.
+    /// Request that the engine is carrying out.
     current_request: Option<CurrentRequest>,
     events: Vec<Event>,
     outbox: Outbox,
-    /// Handed to the socket.
+    /// Client that the engine hands to the socket.
     #[cfg_attr(not(unix), allow(dead_code, reason = "there is no socket"))]
     client: Client,
-    /// Ports for other programs; none in a rehearsal.
+    /// Ports for other programs; `None` in a rehearsal.
     ports: Option<Ports>,
     publish: watch::Sender<Published>,
 }
 
-/// A request while it is carried out: its number among all, and who made it.
+/// Request being carried out: its number and its origin.
 #[derive(Debug, Clone, Copy)]
 struct CurrentRequest {
     number: u64,
     origin: CommandOrigin,
 }
 
-/// One antenna and its session.
+/// Antenna and its session.
 struct Antenna {
     shown: AntennaModel,
     /// Measurements from which the rates of its axes are computed.
     recent: Recent,
-    /// Tells sessions of the same antenna apart.
+    /// Number that tells sessions of the same antenna apart.
     session: u64,
     handle: AntennaHandle,
     at_work: AtWork,
     hold: Hold,
 }
 
-/// The process that has the unit of an antenna.
+/// Process that holds the unit of an antenna.
 enum Hold {
-    /// This one; without a claim where other processes are ignored.
+    /// This process; without a claim if Azel ignores other processes.
     Ours(Option<Claim>),
-    /// Another one, with the lock that it has; `None` where no lock could be tried.
+    /// Another process, with its lock; `None` if no lock could be tried.
     Elsewhere(Option<String>),
 }
 
 /// Claim on the station file.
 enum StationClaim {
-    /// There is no file yet, or claims are switched off.
+    /// No file yet, or claims switched off.
     None,
-    /// Held by this station.
+    /// Claim of this station.
     Ours {
-        /// Closed before the lock is released: nobody asks a station that is not there any more.
+        /// Closed before the lock is released, so that no client asks a closed station.
         #[cfg(unix)]
         _served: Option<socket::Served>,
         claim: Arc<Lock>,
     },
-    /// Held by another Azel of this machine.
+    /// Claim of another Azel on this machine.
     Theirs(HeldBy),
 }
 
-/// The demo station with simulated antennas, before and after the simulators run.
+/// Demo station with simulated antennas, before and after the simulators run.
 enum DemoStation {
-    /// Not running yet: the addresses are known once the simulators run.
+    /// Not running yet: the simulators choose the addresses when they start.
     Coming,
     Running {
         _demo: Demo,
@@ -263,7 +263,7 @@ enum DemoStation {
 }
 
 impl Engine {
-    /// A station with these settings, and a driver on a thread of its own.
+    /// Creates a station with these settings, and a driver on a thread of its own.
     fn new(
         settings: &Settings,
         outside: Outside,
@@ -281,7 +281,7 @@ impl Engine {
         Ok((engine, client))
     }
 
-    /// A station whose antennas `driver` drives; its wake notifies `woken`.
+    /// Creates a station whose antennas `driver` drives; its wake notifies `woken`.
     #[expect(clippy::too_many_lines, reason = "one line a field")]
     fn driving(
         driver: Driver,
@@ -398,7 +398,7 @@ impl Engine {
     async fn run(mut self, mut inbox: mpsc::Receiver<Request>) {
         let woken = Arc::clone(&self.woken);
         loop {
-            // A look at another pass is answered in the next frame, which follows in any case.
+            // A client's look at another pass needs no wake: the next frame shows the answer.
             let mut is_look_alone = true;
             let mut request = tokio::select! {
                 biased;
@@ -408,8 +408,7 @@ impl Engine {
                 },
                 () = woken.notified() => {
                     is_look_alone = false;
-                    // More may come in at the same moment; a request does not have to wait
-                    // for it.
+                    // More wakes may follow at once; a request still interrupts this pause.
                     match self.clock.timeout(BREATH, inbox.recv()).await {
                         Ok(None) => break,
                         lock_result => lock_result.ok().flatten(),
@@ -436,17 +435,17 @@ impl Engine {
                 request = inbox.try_recv().ok();
             }
             if is_jog_alone {
-                // A held key only renews its lease, many times a second.
+                // A held jog key only renews its lease, many times a second.
                 continue;
             }
-            // Wakes until now are handled by this turn.
+            // This turn handles all wakes so far.
             tokio::select! {
                 biased;
                 () = woken.notified() => is_look_alone = false,
                 () = std::future::ready(()) => {}
             }
             self.turn(turn);
-            // A STOP pressed meanwhile has not reached a session that was opened meanwhile.
+            // A STOP pressed during the turn has not reached a session that the turn opened.
             self.take_urgent();
             self.publish();
             if !is_look_alone {
@@ -483,7 +482,7 @@ impl Engine {
         let Request { command, origin, number, instant } = request;
         let age = self.steady.saturating_duration_since(instant);
         if is_jog && age > JOG_LEASE {
-            // The key may be up by now; its release comes next.
+            // The operator may have released the key; the release command follows.
             return;
         }
         if command.row().void_after_stop && age > TOO_LATE {
@@ -501,7 +500,7 @@ impl Engine {
         (self.now, self.steady) = (now.utc, now.steady);
     }
 
-    /// Publishes the present state of the station.
+    /// Publishes the current state of the station.
     fn publish(&mut self) {
         let last = Arc::clone(&self.publish.borrow().snapshot);
         let snapshot = Arc::new(Snapshot {
@@ -551,7 +550,7 @@ impl Engine {
         };
         self.recording.film(&snapshot);
         self.publish.send_replace(Published { snapshot, ends });
-        // The published snapshot now shows what the events are about.
+        // Events follow the snapshot that shows their subject.
         for event in std::mem::take(&mut self.events) {
             if self.outbox.events.try_send(event).is_err() {
                 tracing::warn!("an event is not told: nobody reads them");
@@ -559,13 +558,13 @@ impl Engine {
         }
     }
 
-    /// Sends an event to the client with the next publication.
+    /// Queues an event for the client; the next publication sends it.
     fn tell(&mut self, event: Event) {
         self.events.push(event);
     }
 }
 
-/// A station that panics stops its antennas before their sessions go.
+/// Stops the antennas of a station that panics, before their sessions end.
 impl Drop for Engine {
     fn drop(&mut self) {
         if std::thread::panicking() {
@@ -576,27 +575,27 @@ impl Drop for Engine {
     }
 }
 
-/// Origin of the commands of the client in this process.
+/// Returns the origin of commands from the client in this process.
 fn client_origin(settings: &Settings) -> CommandOrigin {
     settings.claims.as_ref().map_or_else(CommandOrigin::default, |(_, kind)| (*kind).into())
 }
 
-/// A wake that notifies `woken`.
+/// Returns a wake that notifies `woken`.
 fn wake_of(woken: &Arc<Notify>) -> Wake {
     let woken = Arc::clone(woken);
     Arc::new(move || woken.notify_one())
 }
 
-/// Shares `last` if it is unchanged, else a new copy of `now`.
+/// Returns `last` if it equals `now`, else a new copy of `now`.
 fn shared<T: Clone + PartialEq>(now: &T, last: &Arc<T>) -> Arc<T> {
     if *now == **last { Arc::clone(last) } else { Arc::new(now.clone()) }
 }
 
-/// Time to shortly before the next full second, at which a window redraws.
+/// Returns the time to shortly before the next full second, when a window redraws.
 fn to_next_second(now: Timestamp) -> Duration {
     const BEFORE_NS: u64 = 10_000_000;
     let into_ns = u64::from(now.subsec_nanosecond().unsigned_abs());
     let to_ns = (2_000_000_000 - BEFORE_NS - into_ns) % 1_000_000_000;
-    // A clock that stands still must not cause turn after turn at once.
+    // A stopped clock must not cause one turn after another.
     Duration::from_nanos(to_ns).max(Duration::from_millis(5))
 }

@@ -1,5 +1,5 @@
-//! Work that is too long for a frame, on a named thread, with one result, or the
-//! word that it broke off.
+//! Work that is too long for one frame. Each job runs on a named thread and has one result, or
+//! [`BrokeOff`].
 
 use std::{
     cell::Cell,
@@ -14,10 +14,10 @@ use std::{
     time::Duration,
 };
 
-/// Called from any thread when there is something new to take.
+/// Callback for any thread that has a new result or change for the receiver.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
-/// The work panicked, or had no thread; the log has the reason.
+/// Error of work that panicked or got no thread; the log has the reason.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the work failed inside Azel")]
 pub struct BrokeOff;
@@ -26,8 +26,8 @@ thread_local! {
     static RUNS_IN_PLACE: Cell<bool> = const { Cell::new(false) };
 }
 
-/// While this lives, jobs that its thread starts run on that thread and are over at once: in a
-/// rehearsal no time passes while they work.
+/// Guard that makes jobs of its thread run in place and end at once: in a rehearsal, no time passes
+/// while they work.
 pub struct InPlace(PhantomData<*const ()>);
 
 impl InPlace {
@@ -48,15 +48,15 @@ pub fn is_in_place() -> bool {
     RUNS_IN_PLACE.get()
 }
 
-/// A piece of work under way. Dropping it cancels it.
+/// Work under way. Dropping the job cancels the work.
 pub struct Job<T> {
     result: mpsc::Receiver<T>,
     cancelled: Arc<AtomicBool>,
 }
 
 impl<T: Send + 'static> Job<T> {
-    /// Starts `work` on a thread called `name`. It is given a question that turns true when nobody
-    /// wants the result any more. Work for which there is no thread breaks off.
+    /// Starts `work` on a thread called `name`. The argument of `work` is a function that returns
+    /// `true` once the job is dropped. Without a thread, the job ends with [`BrokeOff`].
     pub fn start(
         name: &str,
         wake: Wake,
@@ -66,16 +66,16 @@ impl<T: Send + 'static> Job<T> {
         let cancelled = Arc::new(AtomicBool::new(false));
         let (is_cancelled, wake_without) = (Arc::clone(&cancelled), Arc::clone(&wake));
         let whole = move || {
-            // Dropped in the order result, wake, also where the work panics: whoever is
-            // woken finds the end of the work.
+            // The result channel is dropped before the wake, also after a panic: a woken thread
+            // then finds the end of the work.
             let _wake = WakeAtEnd(wake);
             let send = send;
             let outcome = work(&|| is_cancelled.load(Ordering::Relaxed));
-            // Nobody may be waiting any more.
+            // The job may have been dropped.
             let _ = send.send(outcome);
         };
         if is_in_place() {
-            // The caller that asks for the result learns that the work broke off.
+            // A caller that asks for the result receives `BrokeOff`.
             panic::catch_unwind(AssertUnwindSafe(whole)).ok();
         } else if let Err(error) = thread::Builder::new().name(name.to_owned()).spawn(whole) {
             tracing::error!(%error, name, "there is no thread for this work");
@@ -84,12 +84,12 @@ impl<T: Send + 'static> Job<T> {
         Self { result, cancelled }
     }
 
-    /// Waits for the end of the work, at most this long.
+    /// Waits for the result, at most `timeout`.
     pub fn wait(&self, timeout: Duration) -> Option<T> {
         self.result.recv_timeout(timeout).ok()
     }
 
-    /// The end of the work, once; `None` while it goes on.
+    /// Returns the result once; `None` while the work goes on.
     pub fn end(&self) -> Option<Result<T, BrokeOff>> {
         match self.result.try_recv() {
             Ok(result) => Some(Ok(result)),
@@ -98,7 +98,7 @@ impl<T: Send + 'static> Job<T> {
         }
     }
 
-    /// The end of the work, which leaves no job; `None` while it goes on.
+    /// Returns the result and clears `job`; `None` while the work goes on.
     pub fn take(job: &mut Option<Self>) -> Option<Result<T, BrokeOff>> {
         let end = job.as_ref()?.end()?;
         *job = None;

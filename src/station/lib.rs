@@ -1,8 +1,9 @@
-//! A station at work: the sessions with its units, the engine that decides, the record, transfers of
-//! elements, simulators instead of units, and rehearsals of a plan.
+//! Station: the sessions with its units, the engine that decides, the record, transfers of
+//! elements, simulators in place of units, and rehearsals of a plan.
 //!
-//! From the bottom: [`promises`], [`job`], [`library`], [`transfer`], [`driver`], [`record`],
-//! [`sim`], [`makes`], [`engine`], [`rehearsal`]; a lower one never names a higher one.
+//! Modules from the bottom: [`promises`], [`job`], [`library`], [`transfer`], [`driver`],
+//! [`record`], [`sim`], [`makes`], [`engine`], [`rehearsal`]. A lower module never names a higher
+//! one.
 
 pub mod driver;
 pub mod engine;

@@ -1,8 +1,8 @@
-//! Library: elements of all sources on this computer, and the only place that asks servers
-//! for new ones.
+//! Library of elements from all sources on this computer. Only this module asks servers for new
+//! elements.
 //!
-//! Answers of servers are kept unchanged, one file for each source, beside an index. Being
-//! offline is a normal state: the stored elements stay and their age is shown. All calls
+//! The library stores the answers of servers unchanged, one file for each source, beside an index.
+//! Being offline is a normal state: Azel keeps the stored elements and shows their age. All calls
 //! wait for disks and servers: make them on a worker thread.
 
 mod authorities;
@@ -55,15 +55,15 @@ use crate::{
 /// Extensions of element files in a folder.
 const ENDINGS: [&str; 9] = ["tle", "2le", "3le", "txt", "json", "csv", "xml", "kvn", "omm"];
 
-/// Lock of the visits to Space-Track.
+/// File that locks visits to Space-Track.
 const VISIT_LOCK: &str = "space-track.lock";
 
-/// Element files in `folder`, sorted by name, without those of its subfolders.
+/// Returns the element files in `folder`, sorted by name, without those in subfolders.
 pub fn element_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     disk::files(folder, &ENDINGS)
 }
 
-/// The server of a source, for sources that have one.
+/// Returns the server of a source; `None` for a source without one.
 pub fn server_of(source: &Source) -> Option<String> {
     match &source.place {
         SourcePlace::Web(url) => Some(host(url)),
@@ -72,7 +72,7 @@ pub fn server_of(source: &Source) -> Option<String> {
     }
 }
 
-/// The bytes of a file of elements, as far as the default limits allow.
+/// Reads a file of elements, up to the default size limit.
 pub fn read_element_file(path: &Path) -> io::Result<Vec<u8>> {
     Ok(disk::read(path, Limits::default().bytes)?.bytes)
 }
@@ -90,7 +90,7 @@ pub struct Library {
     space_track: Option<SpaceTrackAccess>,
 }
 
-/// Key of a source in the index; `None` for a source without a server.
+/// Returns the key of a source in the index; `None` for a source without a server.
 fn key(source: &Source) -> Option<Cow<'_, str>> {
     match &source.place {
         SourcePlace::Web(url) => Some(url.into()),
@@ -99,21 +99,21 @@ fn key(source: &Source) -> Option<Cow<'_, str>> {
     }
 }
 
-/// Folder for the elements of this user; `None` on a machine without a home.
+/// Returns the element folder of this user; `None` on a machine without a home folder.
 pub fn library_folder() -> Option<PathBuf> {
     directories::ProjectDirs::from("", "", "azel").map(|dirs| dirs.data_dir().join("elements"))
 }
 
 impl Library {
-    /// Opens the library in `folder`, which need not exist yet.
+    /// Opens the library in `folder`, which may not exist yet.
     pub fn open(folder: &Path, limits: Limits) -> Result<Self, IndexError> {
         let (folder, index) = (folder.to_owned(), Index::load(folder)?);
         Ok(Self { folder, index, limits, authorities: RootCerts::WebPki, space_track: None }
             .trusting(system_authorities()))
     }
 
-    /// Trusts these certificate authorities, in DER, in place of those of the system; the public ones
-    /// if there are none.
+    /// Trusts these certificate authorities, in DER, in place of the system's authorities. An empty
+    /// list means the public authorities.
     #[must_use]
     pub fn trusting(self, authorities: &[CertificateDer<'static>]) -> Self {
         if authorities.is_empty() {
@@ -123,7 +123,7 @@ impl Library {
         Self { authorities: own.into(), ..self }
     }
 
-    /// Asks Space-Track with this access. Without it, sources of Space-Track are not asked.
+    /// Sets the access to Space-Track. Without it, Azel does not ask Space-Track.
     #[must_use]
     pub fn with_space_track(self, access: SpaceTrackAccess) -> Self {
         Self { space_track: Some(access), ..self }
@@ -136,10 +136,10 @@ impl Library {
         (catalog, reports)
     }
 
-    /// Reads all `sources` into a catalog that has elements already.
+    /// Reads all `sources` into a catalog that may already have elements.
     ///
-    /// A source whose reading ended the program is set aside: it is not read, and its report
-    /// says so, until [`Self::read_again`] names it.
+    /// Skips a source whose reading ended the program, and reports it as set aside, until
+    /// [`Self::read_again`] names it.
     pub fn load_into(&self, sources: &[Source], catalog: &mut Catalog) -> Vec<SourceReport> {
         let mut set_aside = SetAside::load(&self.folder);
         let mut reading = Reading::begin(&self.folder, &mut set_aside);
@@ -152,7 +152,7 @@ impl Library {
             (reading.while_reading(source, load), epochs)
         };
         let read: Vec<(SourceReport, Epochs)> = sources.iter().map(report).collect();
-        // Only now: a later source may have newer sets than an earlier one.
+        // Compare after all reads: a later source may have newer sets than an earlier one.
         let compared = read.into_iter().map(|(report, epochs)| {
             let is_older = |(number, epoch): &(&u32, &Timestamp)| {
                 let best = catalog.get(**number);
@@ -164,12 +164,12 @@ impl Library {
         compared.collect()
     }
 
-    /// Stops setting aside the sources in `names`, and those that are no longer in `sources`.
+    /// Clears the set-aside mark of the sources in `names`, and of those no longer in `sources`.
     pub fn read_again(&self, sources: &[Source], names: &[String]) {
         SetAside::load(&self.folder).keep(sources, names);
     }
 
-    /// Reads a source, and adds the epoch of its best set of each object to `epochs`.
+    /// Reads a source, and adds the epoch of its best set for each object to `epochs`.
     fn load_one(
         &self,
         source: &Source,
@@ -220,8 +220,8 @@ impl Library {
         report
     }
 
-    /// Files with the elements of a source, which need not exist; empty if its server never
-    /// answered. An error names the folder that cannot be listed.
+    /// Returns the files with the elements of a source; they may be missing. The list is empty if
+    /// the server never answered. An error names the folder that could not be listed.
     pub fn files_of(&self, source: &Source) -> Result<Vec<PathBuf>, (PathBuf, io::Error)> {
         match &source.place {
             SourcePlace::File(path) => Ok(vec![path.clone()]),
@@ -234,13 +234,12 @@ impl Library {
         }
     }
 
-    /// Asks the servers of `sources` for new elements at `now`: every server that may be asked
-    /// again, or all if the operator demands it (`forced`) and the server allows it. Returns the
-    /// number of sources with new elements; [`Library::load_into`] then reports the result of each,
-    /// even after an error.
+    /// Asks the servers of `sources` for new elements at `now`. Azel asks each server whose pause
+    /// is over, or every server that permits it if `forced`. Returns the number of sources with new
+    /// elements. [`Library::load_into`] then reports each result, even after an error.
     ///
-    /// A server that gives an answer other than 200 or 304, or none, is not asked for its
-    /// other sources. Another process that visits Space-Track keeps this one from a visit.
+    /// A server that fails, or answers with a status other than 200 or 304, is not asked for its
+    /// other sources. Azel does not visit Space-Track while another process does.
     pub fn refresh(
         &mut self,
         sources: &[Source],
@@ -258,13 +257,13 @@ impl Library {
             if silent_hosts.contains(&host) || !self.may_ask(source, &key, now, forced) {
                 continue;
             }
-            // Dropped once the index is saved.
+            // Released after the index is saved.
             let mut _lock = None;
             let permission = match &source.place {
                 SourcePlace::SpaceTrack(user) => match Lock::try_take(&self.folder, VISIT_LOCK) {
                     Ok(Some(lock)) => {
                         _lock = Some(lock);
-                        // Another process may have asked since the index was read.
+                        // Another process may have changed the index since Azel read it.
                         self.index = Index::load(&self.folder)?;
                         if !self.may_ask(source, &key, now, forced) {
                             continue;
@@ -312,8 +311,8 @@ impl Library {
         not_before(&space_track::limits(record), now)
     }
 
-    /// Returns `true` if the server of `source` may be asked at `now`. A limit of the server holds
-    /// for the operator too. Only the operator repeats a refused log-in.
+    /// Returns `true` if the server of `source` may be asked at `now`. Server limits apply to the
+    /// operator too. Only the operator may repeat a refused log-in.
     fn may_ask(&self, source: &Source, key: &str, now: Timestamp, forced: bool) -> bool {
         let record = self.index.get(key);
         let last = record.and_then(Record::asked_at);
@@ -329,10 +328,8 @@ impl Library {
         is_allowed && may_fetch(last, now, forced)
     }
 
-    /// Asks Space-Track for the elements of the favourites.
-    ///
-    /// The answer replaces the stored one even if its newest epoch is older: it may be about other
-    /// favourites.
+    /// Asks Space-Track for the elements of the favourites. The answer replaces the stored one even
+    /// if its newest epoch is older: the favourites may have changed.
     fn refresh_space_track(
         &mut self,
         source: &Source,
@@ -354,7 +351,7 @@ impl Library {
         Ok(true)
     }
 
-    /// Saves a request to Space-Track before it is sent, so that its limit holds even if Azel is
+    /// Saves a request to Space-Track before sending it. Its limit then applies even if Azel is
     /// killed during the visit.
     fn record_step(
         &mut self,
@@ -366,7 +363,7 @@ impl Library {
         let record = self.index.entry(key, &source.name, now);
         let previous = record.queried_at;
         match step {
-            // The time of an attempt that reached no server begins no limit.
+            // An attempt that reached no server starts no limit.
             Step::LogIn => {
                 record.problem.take_if(|problem| problem.is_before_request());
             }
@@ -381,7 +378,7 @@ impl Library {
         })
     }
 
-    /// Requests one source; returns `true` if something new came.
+    /// Requests the elements of one source; returns `true` if the answer has new content.
     fn refresh_one(&mut self, name: &str, url: &str, now: Timestamp) -> Result<bool, FetchProblem> {
         let record = self.index.entry(url, name, now);
         record.attempted_at = now;
@@ -410,7 +407,7 @@ impl Library {
     }
 }
 
-/// The elements of an answer, at least one.
+/// Parses the elements of an answer, at least one.
 fn elements_in(bytes: &[u8]) -> Result<Vec<Elements>, FetchProblem> {
     let report = read_element_bytes(bytes);
     if report.elements.is_empty() {
@@ -419,9 +416,9 @@ fn elements_in(bytes: &[u8]) -> Result<Vec<Elements>, FetchProblem> {
     Ok(report.elements)
 }
 
-/// Returns `true` if the answer `sent` has older sets than `stored` of more objects than it has newer
-/// ones of. A single set decides nothing: lists such as that of `SatNOGS` hold sets for launches
-/// to come, whose dates change in both directions.
+/// Returns `true` if more objects have an older set in `sent` than in `stored` than a newer one. A
+/// single set decides nothing: some lists, such as the one of `SatNOGS`, hold sets for future
+/// launches whose dates change in both directions.
 fn is_older(sent: Vec<Elements>, stored: Vec<Elements>, now: Timestamp) -> bool {
     let catalog = |elements: Vec<Elements>| {
         let mut catalog = Catalog::default();

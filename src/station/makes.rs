@@ -1,5 +1,5 @@
-//! Lists of all makes, to which a new one is added. The demo station, with one unit of each,
-//! is written out in `src/units/demo.rs`.
+//! Lists of all makes. A new make must be added here. `src/units/demo.rs` describes the demo
+//! station, which has one unit of each make.
 
 mod units;
 
@@ -18,15 +18,15 @@ use crate::{
 pub static SIMULATORS: &[sim::Command] =
     &[sim::satrak::COMMAND, sim::rotator_genius::COMMAND, sim::rc2000c::COMMAND];
 
-/// Units of all makes in memory, by the key of the make.
+/// Constructors of simulated units in memory, by the key of the make.
 static UNITS: &[(&str, units::Make)] = &[
     (satrak::SPEC.key, units::satrak),
     (rotator_genius::SPEC.key, units::genius),
     (rc2000c::SPEC.key, units::rc2000c),
 ];
 
-/// A simulated unit for `antenna`, set up like the antenna; `None` for a make without a simulator.
-/// Where the antenna leaves open which file of elements its unit uses, it is told.
+/// Returns a simulated unit for `antenna`, or `None` for a make without a simulator. Enters the
+/// unit's element file in `antenna` if none is set.
 pub fn unit_in_memory(
     antenna: &mut Antenna,
     surroundings: &Surroundings<'_>,

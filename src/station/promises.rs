@@ -1,6 +1,6 @@
-//! The files that the next start must find: STOPs that are owed, auto-track to switch off, offsets
-//! to take back, lock-outs, and how automatic operation was left. Each is a small TOML file, and
-//! only this module writes them.
+//! Files that the next start must find: owed STOPs, auto-track to switch off, offsets to take back,
+//! lock-outs, and the last state of automatic operation. Each is a small TOML file, and only this
+//! module writes them.
 //!
 //! Invariant: a file ends as its newest request demands, however slow the disk is. At most one
 //! worker writes a file at a time, and it always takes the newest request.
@@ -22,7 +22,7 @@ pub enum FileState {
     #[default]
     Absent,
     Holds(String),
-    /// As [`Self::Holds`]; the previous content stays beside it, for the operator.
+    /// Like [`Self::Holds`], but keeps the previous content in a second file for the operator.
     HoldsAndKeepsOld(String),
 }
 
@@ -31,26 +31,26 @@ pub enum FileState {
 pub enum PromisedFile {
     OnDisk,
     Pending,
-    /// The disk did not take it, for this reason.
+    /// The disk refused the request for this reason.
     Failed(String),
 }
 
 type Disk = dyn Fn(&Path, &FileState) -> io::Result<()> + Send + Sync;
 
-/// All promises of this program. Clones share them.
+/// All promises of this program. Clones share their state.
 #[derive(Clone)]
 pub struct Promises {
     shared: Arc<Shared>,
 }
 
 struct Shared {
-    /// Brings a file into a state; blocks.
+    /// Function that brings a file into a state; it blocks.
     disk: Box<Disk>,
     /// Files whose newest request is not on the disk.
     files: Mutex<BTreeMap<PathBuf, Requested>>,
-    /// Wakes threads that wait for a file.
+    /// Condition that wakes threads waiting for a file.
     written: Condvar,
-    /// Wakes tasks that wait for a file.
+    /// Notification that wakes tasks waiting for a file.
     changed: Notify,
 }
 
@@ -59,11 +59,11 @@ struct Requested {
     state: FileState,
     /// Number of the newest request.
     newest: u64,
-    /// Number of the newest request that was tried.
+    /// Number of the newest request that a worker tried.
     tried: u64,
-    /// Why the request tried last is not on the disk.
+    /// Reason why the last tried request is not on the disk.
     failure: Option<String>,
-    /// A worker has this file.
+    /// `true` while a worker writes this file.
     is_busy: bool,
 }
 
@@ -80,7 +80,7 @@ impl fmt::Debug for Promises {
 }
 
 impl Promises {
-    /// Promises that `disk` writes.
+    /// Creates promises that `disk` writes.
     pub(crate) fn new(
         disk: impl Fn(&Path, &FileState) -> io::Result<()> + Send + Sync + 'static,
     ) -> Self {
@@ -93,8 +93,8 @@ impl Promises {
         Self { shared: Arc::new(shared) }
     }
 
-    /// Requests a state of the file at `path`. A worker writes it; outside of a runtime this
-    /// blocks until that is done.
+    /// Requests a state of the file at `path`. A worker writes the file. Outside of a runtime, this
+    /// call blocks until the file is written.
     pub fn put(&self, path: &Path, state: FileState) {
         let Some(work) = self.request(path, state) else { return };
         let (promises, path) = (self.clone(), path.to_owned());
@@ -110,13 +110,13 @@ impl Promises {
         }
     }
 
-    /// Requests a state of the file at `path`, and blocks until it is on the disk. The error says
-    /// why it is not.
+    /// Requests a state of the file at `path`, and blocks until the file is on the disk. The error
+    /// is the reason why the file is not there.
     pub fn put_and_wait(&self, path: &Path, state: FileState) -> Result<(), String> {
         self.finish(path, self.request(path, state))
     }
 
-    /// Puts a request in order; returns the work to do for it, unless a worker is at this file.
+    /// Queues a request and returns the work for it, or `None` while a worker writes this file.
     /// Never blocks on the disk.
     pub(crate) fn request(&self, path: &Path, state: FileState) -> Option<Work> {
         let mut files = self.files();
@@ -162,8 +162,8 @@ impl Promises {
         }
     }
 
-    /// Returns the content of the file at `path`, as requested last by this program or else as the
-    /// disk has it; `None` if there is no such file. Blocks.
+    /// Returns the requested or stored content of the file at `path`; a pending request takes
+    /// precedence over the disk. Returns `None` if there is no such file. Blocks.
     pub fn read(&self, path: &Path) -> io::Result<Option<String>> {
         if let Some(file) = self.files().get(path) {
             return Ok(match &file.state {
@@ -179,7 +179,7 @@ impl Promises {
     }
 
     fn files(&self) -> MutexGuard<'_, BTreeMap<PathBuf, Requested>> {
-        // No code panics while it holds the lock.
+        // No code panics while it holds this lock, so the data is valid even if poisoned.
         self.shared.files.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -193,7 +193,7 @@ fn promised(files: &BTreeMap<PathBuf, Requested>, path: &Path) -> PromisedFile {
     }
 }
 
-/// The right to write one file. Dropped without [`Self::run`], it counts as a failure.
+/// Right to write one file. Dropping it before [`Self::run`] ends counts as a failure.
 #[must_use]
 pub(crate) struct Work {
     promises: Promises,
@@ -202,7 +202,7 @@ pub(crate) struct Work {
 }
 
 impl Work {
-    /// Writes until no newer request waits. Blocks.
+    /// Writes the file until no newer request is pending. Blocks.
     pub(crate) fn run(mut self) {
         while let Some((number, state)) = self.next() {
             let result = (self.promises.shared.disk)(&self.path, &state);
@@ -214,7 +214,7 @@ impl Work {
         }
     }
 
-    /// The newest request, unless it was tried; then this work is over.
+    /// Returns the newest request, or ends this work if it was already tried.
     fn next(&mut self) -> Option<(u64, FileState)> {
         let request = self.with_file(|file| {
             let is_new = file.tried != file.newest;

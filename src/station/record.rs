@@ -1,9 +1,9 @@
-//! The record of a station: what was measured, sent, received, asked and decided, in one SQLite
-//! file (`docs/record.md` tells its schema).
+//! Record of a station: measurements, lines on the links, commands and decisions, in one SQLite
+//! file. `docs/record.md` describes its schema.
 //!
-//! Invariant: nobody waits for the record. Sessions keep their last lines and positions in logs of
-//! their own, the station queues its entries, and one thread writes both. What it could not keep
-//! is counted and marked in the record itself.
+//! Invariant: nobody waits for the record. Sessions keep their last lines and positions in their
+//! own logs, the station queues its entries, and one thread writes both. The record itself counts
+//! and marks the items that could not be kept.
 
 mod along;
 mod causes;
@@ -39,19 +39,19 @@ pub use pointing::{CannotFitPointing, fit_pointing};
 pub use read::{Query, Record, RowKind};
 pub use recorder::Recorder;
 
-/// Why a record cannot be written or read.
+/// Reason why a record cannot be written or read.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordError {
     #[error("the disk is full")]
     DiskFull,
-    /// Written by a newer program.
+    /// A newer program wrote the record.
     #[error(
         "the record was written by a newer Azel (schema {0}; this one reads {known}): update Azel, or \
          move the file away",
         known = file::VERSION
     )]
     Newer(i64),
-    /// Not a record, or damaged.
+    /// The file is damaged or not a record.
     #[error("the file is not a record of Azel, or it is damaged")]
     NoRecord,
     #[error("{0}")]

@@ -1,8 +1,8 @@
-//! Rehearsal: the plan of a station carried out against simulated units, before it happens.
+//! Rehearsal: carries out the plan of a station against simulated units.
 //!
-//! Everything is a task of one runtime on one thread, in tokio's paused time: time passes only when
-//! engine, sessions and simulators have nothing left to do at the present moment, and jobs are over
-//! when they have been started. So a rehearsal runs as fast as it can, and gives the same twice.
+//! All tasks share one runtime on one thread in tokio's paused time. Time passes only when engine,
+//! sessions and simulators have nothing left to do, and jobs end as they start. A rehearsal
+//! therefore runs as fast as the machine can, and repeats exactly.
 
 mod fault;
 mod pass;
@@ -36,17 +36,17 @@ use crate::{
     transfer::{KeptFiles, KnownHosts, Limits, MemoryKeyring},
 };
 
-/// Time for the links to come up and for a first plan before the rehearsal begins, seconds.
+/// Lead before the rehearsal for links and a first plan, seconds.
 const LEAD_S: f64 = 120.0;
-/// Longest time after its end until the last pass is over, seconds.
+/// Max time from the end of the rehearsal to the end of its last pass, seconds.
 const LONGEST_PASS_S: f64 = 6.0 * 3600.0;
-/// Most reports that wait.
+/// Max number of pending pass reports.
 const REPORTS: usize = 64;
 
 /// Station, time and faults of a rehearsal.
 #[derive(Debug, Clone)]
 pub struct Rehearsal {
-    /// Its antennas are copied; nothing of its file is touched.
+    /// Station to copy; a rehearsal never changes its file.
     pub station: Station,
     pub elements: Arc<Catalog>,
     pub start: Timestamp,
@@ -55,7 +55,7 @@ pub struct Rehearsal {
     /// Imperfections of all axes.
     pub mechanics: Mechanics,
     pub faults: Vec<Fault>,
-    /// In multiples of real time; `None` for as fast as it can. The result is the same.
+    /// Multiple of real time; `None` runs at full speed. The speed does not affect the result.
     pub speed: Option<NonZeroU32>,
 }
 
@@ -77,14 +77,14 @@ pub enum RehearsalError {
     Cancelled,
 }
 
-/// Rehearses on this thread. `tell` is called with the time of the rehearsal as it passes.
+/// Runs a rehearsal on this thread. Calls `tell` with each simulated time.
 pub fn run(
     rehearsal: &Rehearsal,
     tell: &dyn Fn(Timestamp),
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<Rehearsed, RehearsalError> {
     let _jobs = job::InPlace::begin();
-    // Mark the log lines below: they concern no real unit.
+    // Mark the log lines: they concern no real unit.
     let _said = tracing::error_span!("rehearsal").entered();
     let runtime =
         tokio::runtime::Builder::new_current_thread().enable_time().start_paused(true).build()?;
@@ -135,12 +135,12 @@ pub fn run(
             () = &mut run => Err(RehearsalError::BrokeDown),
         }
     });
-    // The sessions have nobody to end for.
+    // Do not wait for the sessions: no real unit needs their end.
     runtime.shutdown_background();
     rehearsed
 }
 
-/// Nothing is uploaded in a rehearsal, and nothing of the user's is read.
+/// Returns places inside `folder`: a rehearsal uploads nothing and reads no user data.
 fn upload_places(folder: &std::path::Path) -> uploads::Places {
     let session = Arc::<MemoryKeyring>::default();
     uploads::Places {
@@ -159,7 +159,7 @@ fn switch_on(client: &Client, antennas: &[Antenna]) {
         let connect = Command::Antenna(antenna.id, driver::Command::Connect);
         let switch_on = Command::SetAutomatic { antenna: antenna.id, is_on: true };
         for command in waits.then_some(connect).into_iter().chain([switch_on]) {
-            // The queue is long enough for any station.
+            // The queue holds these commands for any station.
             if client.send(command).is_err() {
                 tracing::error!(antenna = antenna.name, "not switched on for the rehearsal");
             }
@@ -167,7 +167,7 @@ fn switch_on(client: &Client, antennas: &[Antenna]) {
     }
 }
 
-/// Watches a rehearsed station.
+/// Watch over a rehearsed station.
 struct Watch {
     client: Client,
     notes: mpsc::Receiver<PassNote>,
@@ -207,7 +207,7 @@ impl Watch {
     }
 }
 
-/// Keeps a rehearsal at its speed.
+/// Pace of a rehearsal with a set speed.
 struct Pace {
     start: Timestamp,
     begun: Instant,
@@ -219,7 +219,7 @@ impl Pace {
         Self { start, begun: Instant::now(), speed }
     }
 
-    /// Holds the thread, and with it the time of the rehearsal, until `now` is due.
+    /// Blocks the thread until `now` is due; the simulated time waits too.
     fn keep(&self, now: Timestamp) {
         let Some(speed) = self.speed else { return };
         let passed_s = seconds_between(self.start, now) / f64::from(speed.get());

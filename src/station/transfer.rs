@@ -1,8 +1,8 @@
-//! Files of elements between this computer, units and servers: uploads by SFTP with proof
-//! of the result, and test fetches of the sources that a unit uses.
+//! Element files between this computer, units and servers: uploads by SFTP with proof of the
+//! result, and test fetches of a unit's sources.
 //!
-//! The cryptography here is slow on purpose, so these functions never run on the thread of
-//! the sessions: see [`Transfer`].
+//! The cryptography is deliberately slow, so these functions never run on the thread of the
+//! sessions: see [`Transfer`].
 
 mod background;
 mod connect_error;

@@ -15,18 +15,18 @@ use crate::{
     station::AntennaId,
 };
 
-/// Maximum number of rows. Beyond it the oldest go: first those that are over and seen, then
+/// Max number of rows. A full list drops the oldest row: first alarms that are over and seen, then
 /// seen ones.
 const MAX: usize = 200;
 
-/// Keeps the alarms of a station.
+/// Operations on the alarms of a station.
 pub trait KeepAlarms {
-    /// Adds an alarm, unless the same one or one that explains it stands already. It
-    /// replaces alarms that it makes obsolete, and counts in the row of the same matter.
+    /// Adds an alarm, unless the same alarm or one that explains it is already active. Removes
+    /// alarms that the new one makes obsolete, and counts repeats of the same matter in one row.
     fn raise(&mut self, antenna: Option<AntennaId>, kind: AlarmKind, now: Timestamp);
 
-    /// Raises `present`, or lets it stand in its present words, and ends the other alarms of `antenna`
-    /// for which `is_of_matter` returns `true`.
+    /// Raises `present` or updates its active alarm. Ends the other alarms of `antenna` for which
+    /// `is_of_matter` returns `true`.
     fn follow(
         &mut self,
         antenna: Option<AntennaId>,
@@ -35,10 +35,10 @@ pub trait KeepAlarms {
         is_of_matter: impl Fn(&AlarmKind) -> bool,
     );
 
-    /// Returns `true` if an alarm of the matter of `kind` stands.
+    /// Returns `true` if an alarm about the matter of `kind` is active.
     fn stands(&self, antenna: Option<AntennaId>, kind: &AlarmKind) -> bool;
 
-    /// Brings a standing alarm of the matter of `present` up to date.
+    /// Updates the active alarm about the matter of `present`.
     fn restate(&mut self, antenna: Option<AntennaId>, present: &AlarmKind);
 
     /// Removes the alarms of antennas that are not among `antennas`.
@@ -52,22 +52,22 @@ pub trait KeepAlarms {
         is_over: impl Fn(&AlarmKind) -> bool,
     );
 
-    /// Marks an alarm as seen by the operator. One about a moment is over with that.
+    /// Marks an alarm as seen by the operator. This ends an alarm about a single moment.
     fn acknowledge(&mut self, id: u64, now: Timestamp);
 
-    /// Marks all alarms as seen that came no later than the one with this id: one that comes
-    /// while the operator acknowledges stays new.
+    /// Marks all alarms up to the id `newest` as seen. An alarm that arrives while the operator
+    /// acknowledges stays new.
     fn acknowledge_all(&mut self, newest: u64, now: Timestamp);
 
-    /// Keeps an alarm quiet for a time, and what comes of the same matter meanwhile. Alarms of
-    /// top priority are not shelved.
+    /// Shelves an alarm, and later alarms about the same matter, for a time. Alarms of top priority
+    /// cannot be shelved.
     fn shelve(&mut self, id: u64, time: ShelveTime, now: Timestamp);
 
-    /// Takes an alarm back from the shelf. It is seen, as before.
+    /// Takes an alarm off the shelf. The alarm stays seen.
     fn unshelve(&mut self, id: u64);
 
-    /// Takes alarms back whose time on the shelf is up, as new where they stand, and forgets
-    /// those that were over before this day (UTC).
+    /// Takes alarms off the shelf when their time is up; alarms that are still active become new.
+    /// Removes alarms that were over before today (UTC).
     fn pass_time(&mut self, now: Timestamp);
 }
 
@@ -77,7 +77,7 @@ impl KeepAlarms for Alarms {
         if let AlarmKind::DriverStands(_) | AlarmKind::StationStands(_) = kind
             && self.stands(antenna, &kind)
         {
-            // The duration grows while the alarm stands.
+            // The duration in the alarm grows while the alarm is active.
             return self.restate(antenna, &kind);
         }
         let is_known = self.list.iter().any(|alarm| {
@@ -205,7 +205,7 @@ impl KeepAlarms for Alarms {
     }
 
     fn pass_time(&mut self, now: Timestamp) {
-        // An end that far ahead comes from a clock that was ahead.
+        // A later end was set while the clock was ahead.
         let latest = now.checked_add(ShelveTime::EightHours.duration()).ok();
         let is_up = |alarm: &Alarm| {
             let shelved_until = alarm.shelved_until;
@@ -238,8 +238,8 @@ fn acknowledge(alarm: &mut Alarm, now: Timestamp) {
     }
 }
 
-/// Changes the alarms for which `is_changed` returns `true`. The list stays shared if there
-/// are none.
+/// Changes the alarms for which `is_changed` returns `true`. If there are none, the list stays
+/// shared.
 fn change(alarms: &mut Alarms, is_changed: impl Fn(&Alarm) -> bool, change: impl Fn(&mut Alarm)) {
     if alarms.list.iter().any(&is_changed) {
         let list = Arc::make_mut(&mut alarms.list);
@@ -247,7 +247,7 @@ fn change(alarms: &mut Alarms, is_changed: impl Fn(&Alarm) -> bool, change: impl
     }
 }
 
-/// Removes the row that is missed least, where the list is full.
+/// Removes the least important row from a full list.
 fn make_room(list: &mut Vec<Alarm>) {
     if list.len() < MAX {
         return;

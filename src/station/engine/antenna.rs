@@ -1,4 +1,4 @@
-//! Compares what an antenna does with what is predicted for it.
+//! Comparison of an antenna's state with its prediction.
 
 mod past_track;
 
@@ -16,15 +16,15 @@ use crate::{
 };
 use past_track::past_track;
 
-/// Shortest span for measured rates, so that rounding does not show.
+/// Min span for measured rates, seconds; a shorter span would show rounding.
 const RATE_SPAN_S: f64 = 0.9;
 
 /// Measurements from which the rates of the axes are computed.
 #[derive(Debug, Default)]
 pub struct Recent(VecDeque<Measured>);
 
-/// Compares the measurement in the snapshot with the prediction. `followed` finds a
-/// satellite by its catalog number.
+/// Compares the measurement in the snapshot with the prediction. `followed` finds a satellite by
+/// catalog number.
 pub fn refresh<'a>(
     antenna: &mut AntennaModel,
     recent: &mut Recent,
@@ -46,8 +46,7 @@ pub fn refresh<'a>(
     antenna.prediction = if antenna.follows() {
         followed_prediction(antenna)
     } else {
-        // A satellite that the unit does not track yet, or that has not risen, is no
-        // error.
+        // An untracked satellite, or one below the horizon, is no error.
         antenna.tracked_number().filter(|_| is_on_course(antenna)).and_then(|number| {
             let propagator = &followed(number)?.propagator;
             let satellite = |time| Some(propagator.look_from(site, time).ok()?.direction);
@@ -89,7 +88,7 @@ fn take_rate(antenna: &mut AntennaModel, recent: &mut Recent, measured: Measured
         if !(RATE_SPAN_S / 2.0..=10.0).contains(&span_s) {
             return None;
         }
-        // Over the zenith the angles of the sky jump; the axes do not.
+        // At the zenith the sky angles jump, but the axis angles do not.
         if antenna.config.mount.is_flipped(measured.axes[1].angle_deg)
             != antenna.config.mount.is_flipped(before.axes[1].angle_deg)
         {
@@ -106,7 +105,7 @@ fn take_rate(antenna: &mut AntennaModel, recent: &mut Recent, measured: Measured
     recent.0.push_back(measured);
 }
 
-/// Prediction of program track: the session has the target and compares with it.
+/// Returns the prediction of program track from the session, which has the target.
 fn followed_prediction(antenna: &AntennaModel) -> Option<Prediction> {
     let view = antenna.snapshot.program_track.as_ref()?;
     let predicted = view.predicted?;
@@ -117,8 +116,8 @@ fn followed_prediction(antenna: &AntennaModel) -> Option<Prediction> {
     })
 }
 
-/// Returns `true` if the unit should point at its target now: not before its tracking
-/// window opens, and not when the pass is over.
+/// Returns `true` while the unit should point at its target: from the opening of the tracking
+/// window to the end of the pass.
 fn is_on_course(antenna: &AntennaModel) -> bool {
     antenna.snapshot.state.program.is_some_and(|program| {
         program.enabled && matches!(program.phase, Phase::Tracking | Phase::Unknown(_))

@@ -1,5 +1,4 @@
-//! Automatic operation: the station takes the passes of its schedule without the operator, antenna
-//! by antenna.
+//! Automatic operation: each antenna takes the passes of its schedule without the operator.
 
 mod at_start;
 mod auto_track;
@@ -47,26 +46,25 @@ use crate::{
     station::{AntennaId, BetweenPasses},
 };
 
-/// Working state of automatic operation of an antenna, besides its state in the snapshot.
+/// Working state of an antenna's automatic operation, besides its state in the snapshot.
 #[derive(Default)]
 pub(super) struct AtWork {
-    /// The pass of the schedule that comes next or is under way, from when the antenna should set
-    /// out.
+    /// Current or next pass of the schedule, from the time when the antenna should set out.
     flight: Option<Flight>,
-    /// State that was last reported.
+    /// Last reported state.
     operation: Option<Operation>,
-    /// Auto-track was switched on for a pass that the unit holds, and nobody has touched it since.
+    /// `true` while auto-track is on for the pass in the unit and no client has changed it.
     has_auto_track_on: bool,
-    /// After a crash it waits to be switched on again.
+    /// Pending resumption after a crash.
     resumption: Option<Resumption>,
-    /// The pass that the last run was taking, until the antenna takes one in this run.
+    /// Pass that the last run was taking, until the antenna takes a pass in this run.
     interrupted: Option<PassListKey>,
     clock_stop: ClockStop,
     upkeep: UpkeepWork,
 }
 
 impl AtWork {
-    /// Returns the part that stays valid when the antenna is given another unit.
+    /// Returns the state that stays valid when the antenna gets another unit.
     pub(super) fn without_unit(self) -> Self {
         let (clock_stop, upkeep) = Default::default();
         Self {
@@ -79,19 +77,20 @@ impl AtWork {
         }
     }
 
-    /// The pass of the schedule that comes next or is under way.
+    /// Returns the current or next pass of the schedule.
     pub(super) fn duty(&self) -> Option<Duty> {
         self.flight.as_ref().map(|flight| flight.duty)
     }
 
-    /// The pass that the last run was taking, if automatic operation is on or waits to resume.
+    /// Returns the pass that the last run was taking, if automatic operation is on or waits to
+    /// resume.
     pub(super) fn interrupted(&self, operation: &Operation) -> Option<PassListKey> {
         self.interrupted.filter(|_| operation.is_on() || self.resumption.is_some())
     }
 }
 
 impl Engine {
-    /// Switches automatic operation on, unless something forbids it.
+    /// Switches automatic operation on or off. A lock-out or another Azel prevents switching it on.
     pub(super) fn set_automatic(&mut self, index: usize, is_on: bool) {
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let antenna_id = Some(antenna.shown.id());
@@ -102,7 +101,7 @@ impl Engine {
             let is_that = |kind: &AlarmKind| matches!(kind, AlarmKind::AutomaticOff(_));
             self.alarms.clear(antenna_id, self.now, is_that);
         } else if operation.is_on() {
-            // It is at work.
+            // Automatic operation is already on.
         } else if antenna.shown.held_by.is_none() && antenna.shown.snapshot.lock_out.is_none() {
             *operation = Operation::switched_on();
             let is_that = |kind: &AlarmKind| matches!(kind, AlarmKind::AutomaticOff(_));
@@ -110,7 +109,7 @@ impl Engine {
         }
     }
 
-    /// Lets a suspended antenna go on with its schedule.
+    /// Resumes the schedule of a suspended antenna.
     pub(super) fn go_on(&mut self, index: usize) {
         let now = self.now;
         if let Some(antenna) = self.antennas.get_mut(index) {
@@ -118,8 +117,7 @@ impl Engine {
         }
     }
 
-    /// Switches automatic operation on for those antennas for which the station file says so,
-    /// after a run that ended as it should.
+    /// Switches automatic operation on where the station file says so and the last run permits it.
     pub(super) fn start_automatic(&mut self) {
         let path = self.last_run_path();
         let last = path.as_deref().map(LastRun::load).unwrap_or_default();
@@ -135,7 +133,7 @@ impl Engine {
             if is_on_at_start && is_free && last.allows(id) {
                 self.set_automatic(index, true);
             } else if !last.allows(id) {
-                // The run before may have left it on.
+                // The last run may have left auto-track on.
                 self.end_auto_track(index);
             }
         }
@@ -147,27 +145,28 @@ impl Engine {
         self.keep_last_run();
     }
 
-    /// The station was taken over from an Azel that has ended: automatic operation stays off, and
-    /// what was switched off there stays so at the next start.
+    /// Adopts the state of automatic operation from an Azel that has ended. Automatic operation
+    /// stays off; antennas switched off there stay off at the next start.
     pub(super) fn take_over_last_run(&mut self) {
         let last = self.last_run_path().as_deref().map(LastRun::load).unwrap_or_default();
         self.last_run = last.next_run();
         self.keep_last_run();
     }
 
-    /// The station ends as it should.
+    /// Notes that the station ends in order, unless a STOP is owed.
     pub(super) fn end_automatic(&mut self) {
         let owes = |antenna: &Antenna| {
             let stop = antenna.handle.snapshot().stop;
             matches!(stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. })
         };
         self.last_run.is_orderly = !self.antennas.iter().any(owes);
-        // A deliberate end is no crash, even if a STOP is owed.
+        // A deliberate end is not a crash, even if a STOP is owed.
         self.last_run.forget_switched_on();
         self.keep_last_run();
     }
 
-    /// A file beside the station file. `None` for what another Azel holds, and for the demo station.
+    /// Returns the path beside the station file with this extension. `None` for the demo station,
+    /// and if another Azel holds the station.
     pub(super) fn beside_station(&self, extension: &str) -> Option<PathBuf> {
         let is_ours = self.demo.is_none() && !matches!(self.station_claim, StationClaim::Theirs(_));
         let path = self.settings_path.as_deref().filter(|_| is_ours)?;
@@ -185,14 +184,14 @@ impl Engine {
         let result = text.and_then(|text| promises.put_and_wait(&path, FileState::Holds(text)));
         if let Err(error) = result {
             tracing::error!(error, "automatic operation will be off at the next start");
-            // A full disk lets files go.
+            // A full disk still permits removing files.
             if let Err(error) = std::fs::remove_file(&path) {
                 tracing::error!(%error, "the state of automatic operation on disk is out of date");
             }
         }
     }
 
-    /// A client commands an antenna: automatic operation leaves it to the operator.
+    /// Leaves an antenna to the operator after a client's command.
     pub(super) fn leave_to_operator(&mut self, command: &Command) {
         let Some(place) = command.antenna().and_then(|id| self.place(id)) else { return };
         if matches!(command, Command::Antenna(_, driver::Command::AutoTrack(_)))
@@ -206,7 +205,7 @@ impl Engine {
         self.take_control_by(place, command);
     }
 
-    /// Automatic operation of an antenna waits for the operator, who has it.
+    /// Suspends automatic operation of an antenna while the operator has it.
     pub(super) fn suspend_for_operator(&mut self, index: usize) {
         let now = self.now;
         if let Some(antenna) = self.antennas.get_mut(index) {
@@ -215,7 +214,7 @@ impl Engine {
         self.cancel_resumption(index);
     }
 
-    /// STOP ends automatic operation: that of all antennas where it was for all.
+    /// Switches automatic operation off for every antenna that the STOP was meant for.
     pub(super) fn end_automatic_by_stop(&mut self, stopped: &Stopped) {
         for index in 0..self.antennas.len() {
             let Some(antenna) = self.antennas.get_mut(index) else { continue };
@@ -229,13 +228,13 @@ impl Engine {
             self.cancel_resumption(index);
             self.end_auto_track(index);
             if !was_off {
-                // At once: perhaps no turn comes before the end of the program.
+                // Save now: the program may end before the next turn.
                 self.keep_switched_off(id, true);
             }
         }
     }
 
-    /// Takes what an antenna tells of a pass that it was given, or of its safety.
+    /// Handles a session's event about a pass or about safety.
     pub(super) fn take_automatic_event(&mut self, index: usize, event: &Event) {
         let (now, steady) = (self.now, self.steady);
         if resumption::ends_with(event) {
@@ -245,7 +244,7 @@ impl Engine {
         let uses_auto_track = antenna.shown.config.automatic.uses_auto_track;
         let operation = &mut antenna.shown.operation;
         match event {
-            // The pass itself goes on without auto-track, and waits at the edge of a keep-out.
+            // The pass goes on without auto-track, and waits at the edge of a keep-out.
             Event::Refused(MotionRequest::Motion(Motion::EnableAuto), _)
             | Event::Unanswered(MotionRequest::Motion(Motion::EnableAuto))
             | Event::NotSent(Refusal::Forbidden { .. }) => {}
@@ -263,7 +262,7 @@ impl Engine {
             | Event::Unanswered(MotionRequest::Motion(_)) => {
                 operation.take_outcome(Outcome::Failed);
             }
-            // A motion to the start of a pass is asked for again.
+            // The next step requests a motion to the start of a pass again.
             Event::EndedShort { .. } if operation.is_idle() => operation.ended_by_unit(now),
             Event::TrackingEnded { completed: false } => operation.ended_by_unit(now),
             Event::StartedByItself if !uses_auto_track => {
@@ -287,7 +286,7 @@ impl Engine {
                 | Safety::NoEffect { .. }
                 | Safety::Forbidden { response: Response::Stopped, .. },
             ) => operation.switch_off(OffBecause::Safety),
-            // Auto-track starts the pass that the unit holds.
+            // Auto-track starts the pass in the unit.
             Event::Back { found: Found::Tracking, .. } if uses_auto_track => {}
             Event::Safety(
                 Safety::AsksToResume { unlike: Some(_), .. } | Safety::UnitDiffers { .. },
@@ -299,7 +298,8 @@ impl Engine {
         }
     }
 
-    /// Does what is due. A STOP since `turn` was drawn voids what is sent here.
+    /// Runs automatic operation of all antennas. A STOP after `turn` was drawn voids the commands
+    /// of this call.
     pub(super) fn run_automatic(&mut self, turn: u64) {
         self.current_request =
             Some(CurrentRequest { number: turn, origin: CommandOrigin::Station });
@@ -323,8 +323,8 @@ impl Engine {
         self.fly(index, &duties, observation);
         let now = self.now;
         let Some(antenna) = self.antennas.get_mut(index) else { return };
-        // The antennas come to their end by the word of the operator who closes the station.
-        // Before the first schedule nothing tells what a unit that moves is at.
+        // While the station closes, the operator's choice decides what each antenna does. Before
+        // the first schedule, Azel cannot tell why a unit moves.
         if self.closing.is_some() || self.schedule.made_at.is_none() || self.clock_watch.is_in_doubt
         {
             return;
@@ -333,7 +333,7 @@ impl Engine {
         let was_proved = operation.is_proved();
         let act = operation.step(&duties, observation, wishes, now);
         if operation.taking().is_some() {
-            // From now on the schedule keeps what is being taken.
+            // From here on, the schedule keeps the pass being taken.
             antenna.at_work.interrupted = None;
         }
         let newly_proved =
@@ -346,7 +346,7 @@ impl Engine {
             Some(Act::Park) => self.send(index, driver::Command::Park),
             None => {}
         }
-        // Only now does the unit hold the pass that it may start on its own.
+        // The unit now has the pass and may start it on its own.
         if let Some(pass) = newly_proved {
             self.last_run.holds(id, pass);
             self.keep_last_run();
@@ -356,7 +356,7 @@ impl Engine {
         self.run_upkeep(index);
     }
 
-    /// The passes that the schedule gives to an antenna.
+    /// Returns the passes that the schedule gives to an antenna.
     fn duties(&self, antenna: &AntennaModel) -> Vec<Duty> {
         let id = antenna.id();
         let entries = self.schedule.schedule.entries.iter().filter(|entry| entry.antenna == id);
@@ -379,7 +379,7 @@ impl Engine {
         }
     }
 
-    /// Follows the pass of the schedule that is under way.
+    /// Follows the current pass of the schedule and raises an alarm if the antenna is late.
     fn fly(&mut self, index: usize, duties: &[Duty], observation: Observation) {
         let now = self.now;
         let name = |pass: PassListKey| {
@@ -397,8 +397,8 @@ impl Engine {
         if let Some(flight) = flight {
             flight.see(&shown.operation, observation, now);
         }
-        // Its antenna would set out later only by a clock that was set back. A pass that the
-        // schedule gives up before it begins is not missed.
+        // The departure lies in the future again only after the clock was set back. A pass that the
+        // schedule drops before its start is not missed.
         let is_planned =
             |flight: &Flight| duties.iter().any(|duty| is_same_pass(duty.pass, flight.duty.pass));
         flight.take_if(|flight| {
@@ -439,7 +439,7 @@ impl Engine {
         self.record_has_grown();
     }
 
-    /// Tells what has become of automatic operation since the last turn.
+    /// Reports changes of automatic operation since the last turn.
     fn tell_automatic(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let id = antenna.shown.id();
@@ -490,20 +490,20 @@ impl Engine {
         };
         match &event {
             DayEvent::SwitchedOn | DayEvent::WentOn => self.keep_switched_off(id, false),
-            // The end of the station switches nothing off for the next start.
+            // The end of the station switches nothing off at the next start.
             DayEvent::SwitchedOff(_) | DayEvent::Suspended(_) if self.closing.is_none() => {
                 self.keep_switched_off(id, true);
             }
             _ => {}
         }
         self.note_day(id, event);
-        // Nobody watches the unit from now on: it must not start its pass on its own.
+        // Azel no longer watches the unit, so the unit must not start its pass on its own.
         if before.is_on() && !operation.is_on() {
             self.end_auto_track(index);
         }
     }
 
-    /// A new session begins with automatic operation off.
+    /// Notes that a new session begins with automatic operation off.
     pub(super) fn note_reopened(&mut self, index: usize) {
         let Some(id) = self.antennas.get(index).map(|antenna| antenna.shown.id()) else { return };
         if self.last_run.is_switched_on(id) {

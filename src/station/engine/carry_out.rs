@@ -1,4 +1,4 @@
-//! Carries out the commands of clients.
+//! Commands of clients, carried out by the engine.
 
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ use crate::{
     station::{self, AntennaId, Station},
 };
 
-/// Minimum time between two rounds of requests without the operator, after any outcome.
+/// Min time between two rounds of requests without the operator, after any outcome, seconds.
 const REFRESH_PAUSE_S: f64 = 600.0;
 
 impl Engine {
@@ -173,14 +173,14 @@ impl Engine {
             Command::HandOver { antenna, client, always } => {
                 self.with_antenna(antenna, |engine, index| engine.hand_over(index, client, always));
             }
-            // Taken above: control by its row, a client because it is no operator.
+            // Handled above: `TakeControl` by its row, `Client` as a program's command.
             Command::TakeControl(_) | Command::Client(..) => {}
             Command::Look(attention) => self.attention = attention,
         }
     }
 
-    /// Returns `true` if STOP voids the command: a later one of its antenna, or of any antenna for a
-    /// command that concerns them all.
+    /// Returns `true` if a later STOP voids the command: a STOP of its antenna, or any STOP for a
+    /// command that concerns all antennas.
     fn is_void(&self, command: &Command) -> bool {
         let Some(current_request) = self.current_request.filter(|_| command.row().void_after_stop)
         else {
@@ -192,7 +192,7 @@ impl Engine {
         concerned.any(|antenna| antenna.handle.stopper().is_void(current_request.number))
     }
 
-    /// Returns `true` if another Azel drives the antenna, and then shows the refusal on it.
+    /// Returns `true` if another Azel drives the antenna, and shows the refusal on the antenna.
     fn is_elsewhere(&mut self, command: &Command) -> bool {
         let named =
             |name: &str| self.antennas.iter().position(|antenna| antenna.shown.config.name == name);
@@ -208,8 +208,8 @@ impl Engine {
         true
     }
 
-    /// Returns `true` if the station is closing and takes no such command any more, and then shows
-    /// the refusal on the antenna.
+    /// Returns `true` if the closing station refuses the command, and shows the refusal on the
+    /// antenna.
     fn is_too_late(&mut self, command: &Command) -> bool {
         if self.closing.is_none() || command.row().while_closing {
             return false;
@@ -229,7 +229,7 @@ impl Engine {
         }
     }
 
-    /// Stops one antenna past every queue, even a unit that must be connected for it.
+    /// Stops one antenna past every queue, even if its unit must first be connected.
     pub(super) fn stop_one(&mut self, index: usize) {
         if let Some(antenna) = self.antennas.get(index) {
             let (id, stopper) = (antenna.shown.id(), antenna.handle.stopper());
@@ -252,13 +252,13 @@ impl Engine {
         let number = self.number();
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let antenna_id = Some(antenna.shown.id());
-        // Another command is the operator's answer to the question.
+        // Any other command answers the question to the operator.
         if !command.row().in_replay {
             antenna.shown.asks_unseen = None;
         }
         match command {
             driver::Command::AllowUnguarded => antenna.shown.asks_unguarded = false,
-            // The operator vouches for standstill, whatever the unit reports.
+            // The operator confirms standstill, whatever the unit reports.
             driver::Command::SeenStanding => {
                 let alarms = &mut self.alarms;
                 alarms.clear(antenna_id, self.now, |kind| *kind == AlarmKind::StopNotConfirmed);
@@ -272,20 +272,20 @@ impl Engine {
         };
         let Err(command) = sent else { return };
         tracing::error!(?command, "the session is too busy to take a command");
-        // A command that ends a motion must not get lost: stop instead.
+        // A lost command of this kind would leave the antenna moving, so stop it instead.
         if matches!(command, driver::Command::Standby | driver::Command::EndJog) {
             self.stop_one(index);
         }
         self.alarms.raise(antenna_id, AlarmKind::NotTaken, self.now);
     }
 
-    /// Number of what is carried out, for the sessions.
+    /// Returns the number of the current request. Without a request, returns a new number.
     pub(super) fn number(&self) -> u64 {
         self.current_request
             .map_or_else(|| self.driver.orders().next(), |current_request| current_request.number)
     }
 
-    /// Tracks a pass of the schedule.
+    /// Starts tracking a pass of the schedule.
     pub(super) fn take_pass(&mut self, index: usize, duty: &Duty) {
         let Some(predicted) = self.pass(duty.pass) else { return };
         let (site, now) = (self.station.site, self.now);
@@ -321,7 +321,7 @@ impl Engine {
     }
 
     fn follow_pass(&mut self, index: usize, pass: PassListKey) {
-        // A pass that has ended since the request is not replaced by another.
+        // If the pass has ended since the request, Azel does not take another one.
         let Some(predicted) = self.pass(pass) else { return };
         let Some(antenna) = self.antennas.get(index) else { return };
         let config = &antenna.shown.config;
@@ -330,12 +330,12 @@ impl Engine {
         self.send(index, driver::Command::ProgramTrack(Box::new(follow)));
     }
 
-    /// A track begins with the offsets that are remembered of its satellite and its antenna.
+    /// Sets the initial offsets of a track: the stored ones of its satellite and antenna.
     pub(super) fn begin_with_offsets(&self, antenna: AntennaId, follow: &mut ProgramTrack) {
         follow.offsets = self.station.first_offsets(antenna, follow.target.catalog_number());
     }
 
-    /// Tells the sessions with what offsets the next passes of their tracks begin.
+    /// Sends the sessions the initial offsets for the next passes of their tracks.
     fn tell_first_offsets(&mut self) {
         for index in 0..self.antennas.len() {
             let Some(antenna) = self.antennas.get(index) else { continue };
@@ -346,13 +346,13 @@ impl Engine {
         }
     }
 
-    /// A listed pass that is not over.
+    /// Returns a listed pass that is not over.
     pub(super) fn pass(&self, key: PassListKey) -> Option<&PredictedPass> {
         self.pass_lists.find(key).filter(|predicted| predicted.pass.los.time > self.now)
     }
 
-    /// Asks the servers that are set to be asked without a client and are due. A server is left
-    /// alone while anything is read or asked.
+    /// Asks the servers that are due and need no client. Asks no server while other work on
+    /// elements is under way.
     pub(super) fn refresh_by_itself(&mut self) {
         if self.elements_job.is_some() || self.sources.is_locked {
             return;
@@ -368,8 +368,8 @@ impl Engine {
         }
     }
 
-    /// Reads the elements again if the station now has other orders of sources. Elements that came
-    /// with the settings are in no source, and stay.
+    /// Reads the elements again if the station's source priorities changed. Elements that came with
+    /// the settings are in no source, and stay.
     pub(super) fn follow_source_orders(&mut self) {
         let is_known = Arc::ptr_eq(&self.ordered_for, &self.station);
         if self.has_given_elements || self.elements_job.is_some() || is_known {
@@ -384,14 +384,14 @@ impl Engine {
         }
     }
 
-    /// Takes a typed password, and asks the server of its source again as soon as possible.
+    /// Stores a typed password, and asks the server of its source as soon as possible.
     fn set_source_password(&mut self, name: String, secret: &Secret, is_kept: bool) {
         let sources = &mut self.sources.list.iter();
         let user = sources.find_map(|source| match &source.place {
             SourcePlace::SpaceTrack(user) if source.name == name => Some(user.clone()),
             _ => None,
         });
-        // A secret that was written down on its way is empty, and must replace no password.
+        // A recorded secret is empty, and must not replace a password.
         let user = user.filter(|_| !secret.reveal().is_empty());
         let Some((user, passwords)) = user.zip(self.passwords.as_ref()) else { return };
         passwords.take(&user, secret, is_kept);
@@ -410,7 +410,7 @@ impl Engine {
         self.begin_elements(Task { ask, forced: true, awaits_log_in: true, ..Task::default() });
     }
 
-    /// Starts reading the elements. One job at a time: two would write the same files.
+    /// Starts reading the elements, unless a job is under way: two jobs would write the same files.
     pub(super) fn begin_elements(&mut self, task: Task) {
         if self.elements_job.is_some() || self.sources.is_locked {
             return;
@@ -418,7 +418,8 @@ impl Engine {
         self.start_elements(task);
     }
 
-    /// Reads the elements again if other sets of them count by now, such as after a clock step.
+    /// Reads the elements again if the current time changes which sets are best, such as after a
+    /// clock step.
     pub(super) fn judge_epochs_again(&mut self) {
         if let CatalogState::Ready(catalog) = &self.catalog
             && catalog.is_outdated(self.now)
@@ -427,7 +428,7 @@ impl Engine {
         }
     }
 
-    /// Starts reading the elements while nothing else does.
+    /// Starts a job that reads the elements. The caller checks that no other job runs.
     pub(super) fn start_elements(&mut self, task: Task) {
         let task = Task {
             orders: self.station.favourites.source_orders(),
@@ -446,8 +447,8 @@ impl Engine {
         self.sources.work = work;
     }
 
-    /// Changes what the station knows of satellites. The change lasts only as long as the program for the
-    /// demo station, and where the station file could not be read or another Azel holds it.
+    /// Changes the station's data on satellites. The change is not saved for the demo station, for
+    /// an unread station file, or while another Azel holds the station.
     pub(super) fn change_station(&mut self, change: impl FnOnce(&mut Station)) {
         let mut station = Station::clone(&self.station);
         change(&mut station);
@@ -473,7 +474,7 @@ impl Engine {
         self.tell(Event::Changed);
     }
 
-    /// Saves a station, and uses it once it is safe on disk.
+    /// Saves a station, and uses it after the save succeeds.
     fn save_station(&mut self, mut station: station::Station) {
         let now = self.now;
         let was_theirs = matches!(self.station_claim, StationClaim::Theirs(_));
@@ -483,7 +484,8 @@ impl Engine {
         }
         self.claim_station();
         let busy = self.antennas.iter().find(|antenna| antenna.shown.is_busy());
-        // A track would go on from the old site. The simulators of the demonstration end with it.
+        // A track would continue from the old site. The simulators of the demo end when the site
+        // changes.
         let moves_site = self.demo.is_none() && self.station.site != station.site;
         let saved = match &self.settings_path {
             _ if moves_site && let Some(antenna) = busy => {
@@ -493,13 +495,13 @@ impl Engine {
             _ if let StationClaim::Theirs(holder) = &self.station_claim => {
                 Err(format!("it is open in {holder}: save it there, or close it there first"))
             }
-            // Nobody has seen its content here, so a save would replace it unseen.
+            // The operator has not seen the file's content, so a save would replace it unseen.
             Some(path) if self.settings_unread && path.exists() => Err(format!(
                 "the station file could not be read, and saving would replace it. Mend it or move it \
                  away, then start Azel again: {}",
                 path.display()
             )),
-            // The file there by now is another station than the operator has seen.
+            // The file now belongs to a station that the operator has not seen.
             Some(path) if self.demo.is_some() && path.exists() => Err(format!(
                 "a station has been set up elsewhere meanwhile: open it in the station menu: {}",
                 path.display()
@@ -534,7 +536,7 @@ impl Engine {
             }
             Err(text) => {
                 if self.demo.is_some() {
-                    // The demonstration goes on by itself.
+                    // The demo continues without a claim.
                     self.station_claim = StationClaim::None;
                     let is_told = |kind: &AlarmKind| matches!(kind, AlarmKind::StationElsewhere(_));
                     self.alarms.clear(None, self.now, is_told);

@@ -1,6 +1,6 @@
-//! Claims: a station file and each unit may be held by one Azel of this machine at a time.
-//! A claim consists of locks: of a station by its path, of a unit by its address as it is written
-//! and by every place that the address leads to.
+//! Claims: one Azel of this machine at a time may hold a station file and each unit. A claim
+//! consists of locks. A station's lock follows its path; a unit's locks follow its address as text
+//! and every place that the address leads to.
 
 mod folders;
 pub(super) mod lock;
@@ -25,15 +25,15 @@ use crate::{
     station::Antenna,
 };
 
-/// A lock that another process has.
+/// Lock of another process.
 #[derive(Debug, Clone)]
 pub(super) struct Elsewhere {
     pub(super) holder: HeldBy,
-    /// Name of the lock; `None` where no lock could be tried.
+    /// Name of the lock; `None` if no lock could be tried.
     pub(super) lock: Option<String>,
 }
 
-/// Why a claim failed.
+/// Reason why a claim failed.
 #[derive(Debug)]
 pub(super) enum Unclaimed {
     /// Another Azel has one of the locks.
@@ -42,20 +42,20 @@ pub(super) enum Unclaimed {
     Io(io::Error),
 }
 
-/// Folders of the locks, and the holder in whose name they are made.
+/// Folders of the locks, and the holder's data for the lock files.
 #[derive(Debug)]
 pub(super) struct Claims {
     folders: LockFolders,
     kind: HolderKind,
-    /// Socket on which STOP is taken.
+    /// Socket that takes STOP.
     socket: Option<PathBuf>,
-    /// Locks held here, by their names: two antennas on one line share a lock, and a new session
-    /// of a unit has it before the old one has ended.
+    /// Locks of this process by name. Two antennas on one line share a lock, and a new session of a
+    /// unit shares it with the old one.
     locks: Mutex<BTreeMap<String, Weak<Lock>>>,
 }
 
 impl Claims {
-    /// Creates the first folder.
+    /// Creates claims, and the first lock folder.
     pub(super) fn new(
         folders: LockFolders,
         kind: HolderKind,
@@ -65,7 +65,7 @@ impl Claims {
         Ok(Self { folders, kind, socket, locks: Mutex::default() })
     }
 
-    /// Folder and path of the socket on which STOP is taken.
+    /// Returns the folder and path of the socket that takes STOP.
     #[cfg(unix)]
     pub(super) fn socket(&self) -> Option<(LockFolder, PathBuf)> {
         self.folders.own.first().cloned().zip(self.socket.clone())
@@ -76,7 +76,7 @@ impl Claims {
         self.lock(&station_lock(path), None)
     }
 
-    /// Claims the unit of `antenna`: takes the locks that need no name service, and `also` the lock
+    /// Claims the unit of `antenna`: takes the locks that need no name service. `also` is the lock
     /// that another process had before.
     pub(super) fn unit(
         self: &Arc<Self>,
@@ -99,7 +99,7 @@ impl Claims {
         Ok(Arc::new(claim))
     }
 
-    /// Renews the locks whose files were removed.
+    /// Recreates lock files that were removed.
     pub(super) fn renew(&self) {
         let locks: Vec<Arc<Lock>> = {
             let mut locks = unpoisoned(&self.locks);
@@ -139,8 +139,8 @@ impl Claims {
     }
 }
 
-/// A claim on a unit lasts as long as this or a clone of it lives: a session keeps one until it
-/// has ended.
+/// Claim on a unit. It lasts until the last clone is dropped; a session keeps a clone until it
+/// ends.
 pub(super) type Claim = Arc<UnitClaim>;
 
 #[derive(Debug)]
@@ -148,16 +148,16 @@ pub(super) struct UnitClaim {
     claims: Arc<Claims>,
     /// Name of the antenna.
     antenna: String,
-    /// The lock of the address as it is written, which is all that older versions know.
+    /// Lock of the address as text; older versions know only this lock.
     written: Arc<Lock>,
     /// Locks of the places that the address leads to.
     places: Mutex<Vec<Arc<Lock>>>,
-    /// A lock that another process had when the link was to be opened.
+    /// Lock that another process had when the session opened the link.
     elsewhere: Mutex<Option<Elsewhere>>,
 }
 
 impl UnitClaim {
-    /// The lock of this claim that another process has, if any has one.
+    /// Returns a lock of this claim that another process has.
     pub(super) fn elsewhere(&self) -> Option<Elsewhere> {
         let refused = unpoisoned(&self.elsewhere).clone();
         refused.or_else(|| {
@@ -172,8 +172,8 @@ impl UnitClaim {
             return Err(Unclaimed::Held(elsewhere));
         }
         let mut names: Vec<String> = endpoints.iter().map(place_lock).collect();
-        // All processes take the locks in one order, so that two that begin at once do not each get
-        // some of them.
+        // All processes take the locks in the same order. Two that start together then cannot each
+        // get some of the locks.
         names.sort_unstable();
         names.dedup();
         let locks = names.iter().map(|name| self.claims.lock(name, Some(&self.antenna)));
@@ -182,7 +182,7 @@ impl UnitClaim {
     }
 }
 
-/// `None` where no locks are wanted.
+/// Takes the locks of the unit's places; `None` takes no locks.
 impl UnitLock for Option<Claim> {
     fn lock(&self, endpoints: &[Endpoint]) -> io::Result<()> {
         let Some(claim) = self else { return Ok(()) };
@@ -197,40 +197,40 @@ impl UnitLock for Option<Claim> {
     }
 }
 
-/// A lock that another process took when its file was removed.
+/// Returns the lock if another process took it after its file was removed.
 pub(super) fn holder_elsewhere(lock: &Lock) -> Option<Elsewhere> {
     let holder = lock.taken_by()?;
     Some(Elsewhere { holder, lock: Some(lock.name().to_owned()) })
 }
 
-/// The other Azel that holds the station file at `path`, if any does.
+/// Returns the other Azel that holds the station file at `path`.
 pub(super) fn holder_of_station(folders: &LockFolders, path: &Path) -> Option<HeldBy> {
     lock::holder_of_name(&station_lock(path), folders)
 }
 
-/// The holder that the file of a lock names. The lock is held even if its file cannot be read.
+/// Returns the holder named in a lock file. The lock is valid even if the file cannot be read.
 fn read_holder(file: &mut File) -> Option<Holder> {
     let mut text = String::new();
     file.read_to_string(&mut text).ok()?;
     serde_json::from_str(&text).ok()
 }
 
-/// No code panics while it holds one of these.
+/// Locks a mutex. No code panics while it holds one, so poisoning can be ignored.
 fn unpoisoned<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Socket of the holder of the station file at `path`. It has a name in a folder of its
-/// own, because the path of a socket must be short.
+/// Returns the socket path for the station file at `path`. It is a short name in `folder`, because
+/// socket paths have a small max length.
 #[cfg(unix)]
 pub(super) fn socket_path(folder: &Path, path: &Path) -> PathBuf {
     folder.join(format!("{}.sock", station_lock(path)))
 }
 
-/// The canonical path of a station file, even where the file does not exist yet.
+/// Returns the canonical path of a station file, even before the file exists.
 pub(super) fn whole_path(path: &Path) -> PathBuf {
     let whole = path.canonicalize().or_else(|_| {
-        // The file may not exist yet.
+        // The file may not exist yet; its folder does.
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         let folder = folder.unwrap_or(Path::new(".")).canonicalize()?;
         Ok::<_, io::Error>(folder.join(path.file_name().unwrap_or_default()))
@@ -242,14 +242,14 @@ pub(super) fn station_lock(path: &Path) -> String {
     digest("station", whole_path(path).to_string_lossy().as_bytes())
 }
 
-/// Lock of a unit by its address as it is written.
+/// Returns the name of a unit's lock for its address as text.
 pub(super) fn written_lock(antenna: &Antenna) -> String {
     let connection = &antenna.connection;
     let address = connection.address.trim().to_lowercase();
     digest("unit", format!("{} {address}", connection.spec().key).as_bytes())
 }
 
-/// Lock of a place where a unit can be reached.
+/// Returns the name of the lock for a place where a unit can be reached.
 pub(super) fn place_lock(endpoint: &Endpoint) -> String {
     digest("unit", endpoint.key().as_bytes())
 }
@@ -257,7 +257,7 @@ pub(super) fn place_lock(endpoint: &Endpoint) -> String {
 pub(super) fn digest(kind: &str, bytes: &[u8]) -> String {
     let mut name = format!("{kind}-");
     for byte in Sha256::digest(bytes).iter().take(8) {
-        // Writing to a text cannot fail.
+        // Writing to a `String` cannot fail.
         let _ = write!(name, "{byte:02x}");
     }
     name
@@ -272,7 +272,7 @@ mod tests {
         Arc::new(Claims::new(folders, HolderKind::Serve, None).unwrap())
     }
 
-    /// A port of this machine that nobody else uses while the test holds it.
+    /// Returns a port of this machine that stays reserved while the listener exists.
     fn port() -> (std::net::TcpListener, u16) {
         let listener = std::net::TcpListener::bind(("127.0.0.1", 0)).unwrap();
         let port = listener.local_addr().unwrap().port();
@@ -294,7 +294,7 @@ mod tests {
         let run = folder.path().join("run").into();
         assert_eq!(holder_of_station(&run, &path), Some(HeldBy::Azel(Some(holder))));
         assert_eq!(holder_of_station(&run, &folder.path().join("other.toml")), None);
-        // The holder may claim again, and holds it until the last clone is gone.
+        // The holder may claim again. The claim lasts until the last clone is dropped.
         let again = first.station(&path).ok().unwrap();
         drop(lock);
         assert!(second.station(&path).is_err());
@@ -341,7 +341,7 @@ mod tests {
         let (_listener, port) = port();
         let dish = Antenna::satrak("Dish", &format!("127.0.0.1:{port}"));
         let unit_claim = first.unit(&dish, None).ok().unwrap();
-        // Nothing is known of the name before it is looked up.
+        // The places behind a host name are unknown before the name is looked up.
         let other = Antenna::satrak("Dish", &format!("name-{port}.invalid:4001"));
         let claim = second.unit(&other, None).ok().unwrap();
         assert!(claim.elsewhere().is_none());

@@ -1,5 +1,5 @@
-//! Uses the claims: the second Azel of this machine on a station or unit shows the station
-//! and drives nothing until the first has ended.
+//! Use of the claims. A second Azel of this machine shows a station or unit, but drives nothing
+//! until the first Azel has ended.
 
 use std::{io, path::Path, sync::Arc};
 
@@ -24,21 +24,21 @@ use crate::{
     station::{self, AntennaId},
 };
 
-/// Locks that could not be made.
+/// Lock folders that failed, with the reason.
 pub(super) struct NoClaims {
     folders: LockFolders,
     kind: HolderKind,
     reason: String,
 }
 
-/// Locks that can be made, and the courier that takes STOP to the processes that have others.
+/// Claims of this process, and the courier that sends STOP to processes with other locks.
 pub(super) struct ClaimsInUse {
     claims: Arc<Claims>,
     #[cfg(unix)]
     courier: Option<Courier>,
 }
 
-/// The holder by the name that it gave before, where its files are gone for a moment.
+/// Returns `holder`, with its previous name if its lock files are gone for a moment.
 fn with_name(holder: HeldBy, name_source: Option<&HeldBy>) -> HeldBy {
     match (holder, name_source) {
         (HeldBy::Azel(None), Some(name_source @ HeldBy::Azel(_))) => name_source.clone(),
@@ -47,7 +47,7 @@ fn with_name(holder: HeldBy, name_source: Option<&HeldBy>) -> HeldBy {
 }
 
 impl Engine {
-    /// Sets up the claims and claims the station file before it is read.
+    /// Sets up the claims, and claims the station file before it is read.
     pub(super) fn take_claims(&mut self, folders_and_kind: Option<(LockFolders, HolderKind)>) {
         let Some((folders, kind)) = folders_and_kind else { return };
         #[cfg(unix)]
@@ -82,7 +82,7 @@ impl Engine {
         }
     }
 
-    /// Claims the station file, or raises an alarm that says why not.
+    /// Claims the station file, or raises an alarm with the reason why it cannot.
     pub(super) fn claim_station(&mut self) {
         if matches!(self.station_claim, StationClaim::Ours { .. }) {
             return;
@@ -125,7 +125,7 @@ impl Engine {
     fn tell_unclaimed(&mut self, subject: &str, error: &io::Error) {
         let text = format!("{subject}: {error}");
         let kind = AlarmKind::Settings(text.clone());
-        // Each attempt fails for the same reason.
+        // The same alarm is already active; every attempt would repeat it.
         if self.alarms.list().iter().any(|alarm| alarm.kind == kind && !alarm.is_over()) {
             return;
         }
@@ -133,8 +133,8 @@ impl Engine {
         self.alarms.raise(None, kind, self.now);
     }
 
-    /// Claims the unit of an antenna, and `also` the lock that another process had before. `None`
-    /// where no claim is made; an error names the holder.
+    /// Claims the unit of an antenna, with `also`, the lock that another process had before.
+    /// Returns `None` if claims are switched off; an error names the holder.
     pub(super) fn claim_unit(
         &self,
         antenna: &station::Antenna,
@@ -155,7 +155,7 @@ impl Engine {
         match claims.unit(antenna, also) {
             Ok(claim) => Ok(Some(claim)),
             Err(Unclaimed::Held(elsewhere)) => Err(elsewhere),
-            // Another program may drive the unit as well.
+            // Without a lock, another program may also drive the unit.
             Err(Unclaimed::Io(error)) => Err(unknown(error.to_string())),
         }
     }
@@ -176,7 +176,7 @@ impl Engine {
                 courier.press(antenna.id(), press);
                 continue;
             }
-            // Nobody is known who could stop it.
+            // No other process is known that could stop the unit.
             let _ = lock;
             self.client.urgent().is_stop_lost = true;
         }
@@ -227,7 +227,7 @@ impl Engine {
         }
     }
 
-    /// Opens an antenna if the process that had its unit has ended.
+    /// Opens an antenna if the process that held its unit has ended.
     fn try_unit(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let Hold::Elsewhere(lock) = &antenna.hold else { return };
@@ -257,8 +257,8 @@ impl Engine {
         }
     }
 
-    /// Leaves a unit to the process that has one of its locks, or to the one that has the station.
-    /// A STOP that the unit is owed goes there.
+    /// Leaves a unit to the process that has one of its locks, or that has the station. That
+    /// process also handles an owed STOP.
     fn leave_unit(&mut self, index: usize, elsewhere: Option<Elsewhere>) {
         let Some(antenna) = self.antennas.get(index) else { return };
         let config = Arc::clone(&antenna.shown.config);
@@ -277,7 +277,7 @@ impl Engine {
         }
     }
 
-    /// Replaces the session of an antenna, or the lack of one.
+    /// Replaces the session of an antenna, or opens one if it has none.
     fn reopen(&mut self, index: usize, claim: Result<Option<Claim>, Elsewhere>) {
         let Some(antenna) = self.antennas.get(index) else { return };
         let config = Arc::clone(&antenna.shown.config);
@@ -289,12 +289,12 @@ impl Engine {
             *antenna = opened;
         }
         self.note_reopened(index);
-        // From now on STOP goes the new way.
+        // From here on, STOP goes to the new session.
         self.publish();
     }
 
-    /// Takes over and reloads the station file if its holder has ended, as the holder may
-    /// have changed it. Returns `true` if this station holds it now.
+    /// Takes over the station file if its holder has ended, and reloads the file, which the holder
+    /// may have changed. Returns `true` if this station now holds it.
     pub(super) fn take_over_station(&mut self) -> bool {
         self.claim_station();
         if !matches!(self.station_claim, StationClaim::Ours { .. }) {

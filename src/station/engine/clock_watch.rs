@@ -1,5 +1,5 @@
-//! Checks periodically that the clock of this computer is synchronised, and detects clock steps at
-//! each turn.
+//! Periodic checks that this computer's clock is synchronised, and detection of clock steps at each
+//! turn.
 
 use std::time::Duration;
 
@@ -10,25 +10,25 @@ use crate::{
     job::{Job, Wake},
 };
 
-/// Time between two checks: an unsynchronised clock drifts by some milliseconds in it.
+/// Time between two checks. An unsynchronised clock drifts by some milliseconds in that time.
 const PERIOD: Duration = Duration::from_mins(2);
 
-/// A clock that is set by less stays plausible, seconds.
+/// Min change of the clock that makes UTC implausible, seconds.
 const STEP_S: f64 = 1.0;
 
-/// The check under way, and the time of the last one.
+/// Current check, and the time of the last one.
 #[derive(Default)]
 pub(super) struct ClockWatch {
     checked: Option<Instant>,
     job: Option<Job<TimeSync>>,
-    /// Set from a clock step until the time service answers: automatic operation waits.
+    /// `true` from a clock step until the time service answers; automatic operation waits.
     pub(super) is_in_doubt: bool,
     /// Both clocks and the total sleep time at the previous turn.
     previous: Option<(Moment, Duration)>,
 }
 
 impl ClockWatch {
-    /// Returns `true` if the clock was set since the last call, so that UTC is not plausible.
+    /// Returns `true` if the clock was set since the last call, which makes UTC implausible.
     pub(super) fn was_set(&mut self, now: Moment, asleep: Duration) -> bool {
         let Some((before, slept)) = self.previous.replace((now, asleep)) else { return false };
         let steady = now.steady.saturating_duration_since(before.steady);
@@ -41,7 +41,7 @@ impl ClockWatch {
         (self.checked, self.job) = (None, None);
     }
 
-    /// Returns a new answer once it has come, and starts the next check when it is due.
+    /// Returns a new answer of the time service, and starts the next check when due.
     pub(super) fn poll(
         &mut self,
         now: Instant,

@@ -1,4 +1,4 @@
-//! Closing while antennas move: carry out the operator's choice, then end.
+//! Closing while antennas move: Azel carries out the operator's choice, then ends.
 
 use std::time::Duration;
 
@@ -15,13 +15,13 @@ use crate::{
     station::AntennaId,
 };
 
-/// A STOP is reported as not proved before this time.
+/// Max time for a session to prove or report a STOP; after it, the closing fails.
 const STOPPED_IN: Duration = Duration::from_secs(6);
-/// A session has taken up a command by this time.
+/// Max time for a session to start a parking command; after it, the closing fails.
 const TAKEN_IN: Duration = Duration::from_secs(2);
 
 impl Engine {
-    /// Carries out the operator's choice and closes when it is done.
+    /// Carries out the operator's choice, and closes once it is done.
     pub(super) fn close_after(&mut self, choice: CloseHow) {
         let mut waits_for = Vec::new();
         for index in 0..self.antennas.len() {
@@ -32,15 +32,15 @@ impl Engine {
             if choice == CloseHow::Leave && matches!(stake, Stake::OnBoard(_)) {
                 continue;
             }
-            // Also where the end is given up: the operator has ended the track.
+            // Suspend even if the closing fails later: the operator has ended the track.
             antenna.operation.suspend(Interruption::ByHand, self.now);
             if choice == CloseHow::Park && antenna.can_park() {
                 self.send(index, Command::Park);
                 waits_for.push((id, CloseCondition::Parked));
                 continue;
             }
-            // An antenna already reported as not stopped is not waited for again: an
-            // unreachable unit must not hold up the end.
+            // Do not wait again for an antenna already reported as not stopped: an unreachable unit
+            // must not delay the end.
             let was_told = matches!(antenna.snapshot.stop, StopState::NotConfirmed { .. });
             self.stop_one(index);
             if !was_told {
@@ -50,7 +50,7 @@ impl Engine {
         self.closing = Some(Closing { choice, waits_for, start: self.steady });
     }
 
-    /// Takes an event of an antenna that the closing waits for.
+    /// Handles an event of an antenna that the closing waits for.
     pub(super) fn take_closing_event(&mut self, id: AntennaId, event: &Event) {
         let Some(closing) = &mut self.closing else { return };
         let Some(place) = closing.waits_for.iter().position(|(antenna, _)| *antenna == id) else {
@@ -79,7 +79,7 @@ impl Engine {
         }
     }
 
-    /// Ends the closing: drops one that fails, and reports one that is done.
+    /// Drops a closing that fails, and reports one that is done.
     pub(super) fn watch_closing(&mut self) {
         let Some(closing) = &self.closing else { return };
         let age = self.steady.saturating_duration_since(closing.start);
@@ -102,11 +102,11 @@ impl Engine {
         }
     }
 
-    /// Ends without a question: stops active antennas unless the station file says to leave
-    /// them.
+    /// Ends without asking the operator: stops active antennas unless the station file says to
+    /// leave them.
     pub(super) fn end_unasked(&mut self) {
         match CloseHow::from_station(&self.station) {
-            // Parking takes longer than the operating system waits.
+            // Parking takes longer than the operating system permits.
             None | Some(CloseHow::Hold | CloseHow::Park) => {
                 for antenna in &self.antennas {
                     if antenna.shown.stake().is_some() {

@@ -1,8 +1,9 @@
-//! Decides whose commands reach an antenna: at most one party is in control at a time.
+//! Control of an antenna: at most one party has it at a time.
 //!
 //! The window, automatic operation and `azel` commands take control with their commands, because
-//! the operator stands behind them. A program on the network gets control from nobody or from the
-//! operator, renews it with every line, and loses it when it is silent.
+//! the operator stands behind them. A program on the network can take control only while nobody has
+//! it, or when the operator grants it. The program renews control with every line, and loses it
+//! when silent.
 
 mod rules;
 
@@ -27,12 +28,12 @@ impl Engine {
         Moment { utc: self.now, steady: self.steady }
     }
 
-    /// Who gave the command that is carried out.
+    /// Returns the origin of the current request.
     fn origin(&self) -> CommandOrigin {
         self.current_request.map_or(CommandOrigin::Station, |request| request.origin)
     }
 
-    /// Brings control of an antenna up to date with automatic operation and the connections.
+    /// Updates control of an antenna from automatic operation and the connections.
     pub(super) fn watch_control(&mut self, index: usize) {
         let now = self.moment();
         let Some(antenna) = self.antennas.get_mut(index) else { return };
@@ -60,14 +61,15 @@ impl Engine {
             }
         }
         loss |= control.lapse(now);
-        // The unit's answer to the last command of a client.
+        // The snapshot has the unit's answer to the last command of a client.
         if let Some(answer) = &antenna.shown.snapshot.answer {
             control.answered(answer);
         }
         self.end_motion_of_client(index, loss);
     }
 
-    /// Opens and closes ports by the settings. The Azel that drives an antenna has its port.
+    /// Opens and closes ports according to the settings. Only the Azel that drives an antenna opens
+    /// its port.
     pub(super) fn open_ports(&self) {
         let Some(ports) = &self.ports else { return };
         let is_ours = |id: AntennaId| {
@@ -78,8 +80,8 @@ impl Engine {
         ports.listen(open.map(|port| (port.antenna, port.listen)));
     }
 
-    /// The motion of a client that lost control must not outlive it: a turn ends, and a track of a
-    /// fixed direction ends there.
+    /// Ends the motion of a client that lost control: its turn stops, and its track of a fixed
+    /// direction ends at the target.
     fn end_motion_of_client(&mut self, index: usize, loss: Loss) {
         if loss == Loss::Client {
             self.send(index, driver::Command::EndJog);
@@ -87,7 +89,7 @@ impl Engine {
         }
     }
 
-    /// An operator's command takes control as its row says.
+    /// Takes control for the operator's command, as the command's row says.
     pub(super) fn take_control_by(&mut self, index: usize, command: &Command) {
         let now = self.moment();
         let party = party_of(self.origin());
@@ -110,7 +112,7 @@ impl Engine {
         self.end_motion_of_client(index, loss);
     }
 
-    /// The operator hands control to a program.
+    /// Hands control from the operator to a program.
     pub(super) fn hand_over(&mut self, index: usize, client: SocketAddr, always: bool) {
         let now = self.moment();
         let Some(antenna) = self.antennas.get_mut(index) else { return };
@@ -166,7 +168,7 @@ impl Engine {
         }
     }
 
-    /// Reason not to take a motion of this program.
+    /// Returns the reason to refuse a motion of this program.
     fn refusal_of_client(&mut self, index: usize, peer: SocketAddr) -> Option<Refusal> {
         let now = self.moment();
         let is_closing = self.closing.is_some();
@@ -188,8 +190,8 @@ impl Engine {
         }
     }
 
-    /// A client's stop is no operator's STOP: Gpredict sends one when it is refused, `HamClock` when
-    /// it connects.
+    /// Handles a client's stop, which does not count as the operator's STOP: Gpredict sends one
+    /// after a refusal, `HamClock` when it connects.
     fn stop_for_client(&mut self, index: usize, peer: SocketAddr) {
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         match antenna.shown.control.party {

@@ -1,5 +1,4 @@
-//! Copies of the settings of units as files: saved, listed and read on a thread of their
-//! own.
+//! Copies of unit settings as files: a separate thread saves, lists and reads them.
 
 use std::{
     fs, io,
@@ -15,10 +14,10 @@ use crate::{
     whole_file,
 };
 
-/// Maximum size of a copy.
+/// Max size of a copy, bytes.
 const MAX_BYTES: u64 = 1 << 20;
 
-/// A job for the thread.
+/// Job for the thread.
 pub(super) enum Task {
     Save { antenna: String, text: String, path: PathBuf },
     List { antenna: String },
@@ -32,33 +31,33 @@ pub(super) enum Outcome {
     Read(PathBuf, Result<SettingsCopy, String>),
 }
 
-/// Changes of service settings that wait until the previous values are saved as a copy.
+/// Pending changes of service settings, until a copy of the previous values is saved.
 #[derive(Debug)]
 pub(super) struct Waiting {
     pub(super) antenna: String,
     pub(super) changes: Vec<Change>,
 }
 
-/// The job under way, and the jobs that wait.
+/// Current job and pending jobs.
 #[derive(Default)]
 pub(super) struct CopyWork {
     folder: Option<PathBuf>,
     job: Option<Job<Outcome>>,
-    /// Outcome to report if the job breaks off: changes that wait for a copy must learn that there is
-    /// none.
+    /// Outcome to report if the job breaks off, so that pending changes do not wait for a missing
+    /// copy.
     if_broken: Option<Outcome>,
     queue: Vec<Task>,
     pub(super) waiting: Option<Waiting>,
 }
 
 impl CopyWork {
-    /// Copies go to a folder beside the station file.
+    /// Creates the work; copies go to a folder beside the station file.
     pub(super) fn new(station: Option<&Path>) -> Self {
         let folder = station.map(|station| station.with_file_name("settings-copies"));
         Self { folder, ..Self::default() }
     }
 
-    /// Queues a save of the settings read from `antenna`, or says why not.
+    /// Queues a save of the settings read from `antenna`, or returns the reason why it cannot.
     pub(super) fn save(&mut self, antenna: &AntennaModel, now: Timestamp) -> Result<(), String> {
         let folder = self.folder.as_ref().ok_or("this user has no folder for settings")?;
         let name = &antenna.config.name;
@@ -93,7 +92,7 @@ impl CopyWork {
     /// Returns the outcome of a finished job, or starts the next one.
     pub(super) fn turn(&mut self, wake: &Wake) -> Option<Outcome> {
         if let Some(end) = Job::take(&mut self.job) {
-            // The next job begins with the next turn; the wake brings it.
+            // The next job starts in the next turn, which this wake causes.
             wake();
             return end.ok().or(self.if_broken.take());
         }
@@ -108,7 +107,7 @@ impl CopyWork {
     }
 }
 
-/// Outcome of a job that breaks off, for those who wait for it.
+/// Returns the outcome of a job that breaks off.
 fn broken(task: &Task) -> Outcome {
     let reason = BrokeOff.to_string();
     match task {
@@ -152,7 +151,7 @@ fn text(path: &Path) -> io::Result<String> {
     fs::read_to_string(path)
 }
 
-/// Copies of an antenna, newest first: the time is in the name.
+/// Returns the copies of an antenna, newest first; file names contain the time.
 fn list(folder: &Path, antenna: &str) -> Vec<PathBuf> {
     let start = format!("{}-", slug(antenna));
     let is_copy = |path: &PathBuf| {
@@ -166,7 +165,7 @@ fn list(folder: &Path, antenna: &str) -> Vec<PathBuf> {
     paths
 }
 
-/// A file name that every file system takes.
+/// Returns a file name that every file system accepts.
 fn slug(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect()
 }

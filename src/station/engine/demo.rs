@@ -1,5 +1,5 @@
-//! Simulated antennas of the demo station: simulators in this process, behind real sockets
-//! on the loopback and a pseudo-terminal. The rest of the program does not know.
+//! Simulated antennas of the demo station. The simulators run in this process, behind real sockets
+//! on the loopback and a pseudo-terminal; the rest of the program treats them as units.
 
 use std::{
     collections::BTreeMap,
@@ -22,7 +22,7 @@ use crate::{
 /// Any free port, reachable from this machine only.
 const LOOPBACK: SocketAddr = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), 0);
 
-/// Running simulators. Dropping this ends them.
+/// Running simulators. Dropping `Demo` ends them.
 pub(super) struct Demo {
     pub(super) addresses: DemoAddresses,
     _end: tokio::sync::oneshot::Sender<()>,
@@ -33,7 +33,7 @@ impl Demo {
     pub(super) fn start(station: &Station, elements: Vec<Elements>) -> io::Result<Self> {
         let satrak = satrak::Options {
             elements: BTreeMap::from([(satrak::BUNDLED_FILE.to_owned(), elements)]),
-            // Those bundled with the program are as old as it is; the window says so.
+            // The bundled elements are as old as the program; the window says so.
             outdated_after: SignedDuration::MAX,
             ..satrak::Options::new(station.site, Timestamp::now())
         };
@@ -46,7 +46,7 @@ impl Demo {
                     Ok(served) => served,
                     Err(error) => return drop(tell.send(Err(error))),
                 };
-                // Nobody may be waiting any more.
+                // The caller may no longer wait for the addresses.
                 drop(tell.send(Ok(addresses)));
                 tokio::select! {
                     () = serving => {}
@@ -60,7 +60,7 @@ impl Demo {
     }
 }
 
-/// The simulators' addresses, and the future that serves them.
+/// Returns the simulators' addresses, and the future that serves them.
 async fn serve(satrak: satrak::Options) -> io::Result<(DemoAddresses, Serving)> {
     let satrak = satrak::Simulator::bind(LOOPBACK, satrak).await?;
     let genius = rotator_genius::Simulator::bind(LOOPBACK, genius()).await?;
@@ -80,7 +80,7 @@ async fn serve(satrak: satrak::Options) -> io::Result<(DemoAddresses, Serving)> 
     Ok((addresses, Box::pin(serving)))
 }
 
-/// Travel: azimuth all around, elevation to the zenith.
+/// Returns options with azimuth all around and elevation to the zenith.
 fn genius() -> rotator_genius::Options {
     let azimuth = rotator_genius::RotatorOptions {
         limit_cw: WholeDegrees::MAX,
@@ -92,8 +92,8 @@ fn genius() -> rotator_genius::Options {
     }
 }
 
-/// The simulated RC2000C on a pseudo-terminal where there are such, else behind a TCP port
-/// like a serial server. Returns the future that serves it, and its address.
+/// Creates the simulated RC2000C on a pseudo-terminal, or behind a TCP port like a serial server
+/// where the system has none. Returns the future that serves it, and its address.
 async fn rc2000c() -> io::Result<(Serving, String)> {
     let options = rc2000c::Options::default();
     #[cfg(unix)]

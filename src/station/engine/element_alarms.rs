@@ -15,9 +15,9 @@ use crate::{
     station::{AntennaId, Scheduling},
 };
 
-/// A source raises an alarm after this many requests in a row that brought nothing.
+/// Number of failed requests in a row that raises an alarm about a source.
 const FAILURES: u32 = 2;
-/// Age of elements at a pass from which they raise an alarm, days.
+/// Min age of elements at a pass for an alarm, days.
 const MAX_AGE_DAYS: f64 = 7.0;
 
 impl Engine {
@@ -38,8 +38,8 @@ impl Engine {
         }
     }
 
-    /// Raises an alarm while the elements of passes that automatic operation will take, or leaves out
-    /// for their age, are too old.
+    /// Raises an alarm while elements are too old for passes that automatic operation will take, or
+    /// leaves out for their age.
     pub(super) fn watch_element_age(&mut self) {
         let found = self.old_elements();
         match found {
@@ -64,19 +64,19 @@ impl Engine {
     }
 }
 
-/// Returns `true` if a source raises an alarm.
+/// Returns `true` if the source needs an alarm.
 fn is_failing(report: &SourceReport) -> bool {
     let is_unread = report.files.iter().any(|file| file.problem.is_some());
     report.failures >= FAILURES || report.awaits_operator() || is_unread
 }
 
-/// Age of elements at a pass from which they raise an alarm, days.
+/// Returns the min age of elements at a pass for an alarm, days.
 fn max_age_d(scheduling: &Scheduling) -> f64 {
     scheduling.max_element_age_d.map_or(MAX_AGE_DAYS, |own| own.min(MAX_AGE_DAYS))
 }
 
-/// The satellites and times of the passes that `automatic` antennas will take, or would take with
-/// newer elements.
+/// Returns the satellites and times of passes that `automatic` antennas will take, or would take
+/// with newer elements.
 fn concerned(schedule: &Schedule, automatic: &[AntennaId]) -> Vec<(u32, Timestamp)> {
     let entries = schedule.entries.iter().filter(|entry| automatic.contains(&entry.antenna));
     let passes = entries.map(|entry| (entry.pass.satellite, entry.start));

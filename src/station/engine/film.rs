@@ -1,4 +1,4 @@
-//! The snapshots of a station as pictures of its film, and the way back.
+//! Conversion of a station's snapshots to pictures of its film, and back.
 
 use std::{any::Any, collections::HashMap, path::Path, sync::Arc};
 
@@ -22,13 +22,13 @@ use crate::{
     station::{AntennaId, Station},
 };
 
-/// Source of the elements of a film.
+/// Name of the source that a film's elements appear under.
 const RECORDED_SOURCE: &str = "record";
 
-/// Lines are shown from this long before the moment that is gone to, seconds.
+/// Span of shown lines before the selected moment, seconds.
 const WIRE_S: f64 = 300.0;
 
-/// A snapshot with numbers instead of its large parts.
+/// Snapshot with part numbers in place of its large parts.
 #[derive(Serialize, Deserialize)]
 struct Drawn {
     shown: Snapshot,
@@ -37,7 +37,7 @@ struct Drawn {
     satellites: i64,
     sources: i64,
     older_sets: Option<i64>,
-    // Older films have neither of the next two.
+    // Older films lack the next two fields.
     pointing_fitted: Option<i64>,
     peaks: Option<i64>,
     reminders: i64,
@@ -50,8 +50,7 @@ struct Drawn {
     copies: i64,
 }
 
-/// The errors of an antenna: those of the present track in whole chunks and the newest ones, and
-/// those of past tracks.
+/// Errors of an antenna: whole chunks and newest samples of the current track, and past tracks.
 #[derive(Serialize, Deserialize)]
 struct DrawnAntenna {
     chunks: Vec<i64>,
@@ -65,7 +64,7 @@ impl Picture for Snapshot {
     }
 
     fn draw(&self, parts: &mut Parts) -> serde_json::Result<Value> {
-        // All fields by name: a new one has to be drawn as well.
+        // Name all fields: a new field must be drawn too.
         let Self {
             moment,
             time_sync,
@@ -77,7 +76,7 @@ impl Picture for Snapshot {
             catalog_revision,
             sources,
             older_sets,
-            // A client looks at the record, which holds the film itself.
+            // `recorded` is left out: the film is part of the record that it describes.
             recorded: _,
             pointing_fitted,
             peaks,
@@ -136,13 +135,14 @@ impl Picture for Snapshot {
     }
 }
 
-/// Reads a picture by way of its text: read straight from the tree, each type in it would be
-/// compiled a second time, and a picture is small.
+/// Reads a picture by way of its text. Reading it straight from the tree would compile each type a
+/// second time, and a picture is small.
 fn drawn(picture: &serde_json::Value) -> serde_json::Result<Drawn> {
     serde_json::from_slice(&serde_json::to_vec(picture)?)
 }
 
-/// Returns the antennas without their large parts and without values that the previous picture has.
+/// Returns the antennas without their large parts and without values that equal the previous
+/// picture.
 fn without_parts(antennas: &[AntennaModel], parts: &mut Parts) -> Vec<AntennaModel> {
     let mut antennas = antennas.to_vec();
     for (index, antenna) in antennas.iter_mut().enumerate() {
@@ -157,7 +157,7 @@ fn without_parts(antennas: &[AntennaModel], parts: &mut Parts) -> Vec<AntennaMod
     antennas
 }
 
-/// Returns the snapshot at `place` without values that the previous picture has.
+/// Returns the snapshot at `place` without values that equal the previous picture.
 fn without_unchanged(
     place: String,
     snapshot: &Arc<driver::Snapshot>,
@@ -169,7 +169,7 @@ fn without_unchanged(
     let same_checks = parts.is_same(state_field("checks"), &state.checks);
     let same_questions = parts.is_same(state_field("questions"), &state.questions);
     let same_held = parts.is_same(state_field("held"), &state.groups);
-    // Compare the fields first, so that they stay known while the whole snapshot is unchanged.
+    // Compare the fields first: they stay known while the whole snapshot is unchanged.
     if parts.is_same(place, snapshot) {
         return Arc::new(driver::Snapshot::before_anything(LinkState::Off));
     }
@@ -202,7 +202,7 @@ impl DrawnAntenna {
     }
 }
 
-/// Shows the film of a station again.
+/// Projector that turns a film back into snapshots.
 pub struct Projector {
     film: Film,
     /// Parts of the last pictures by run and number.
@@ -211,7 +211,7 @@ pub struct Projector {
     wires: Wires,
 }
 
-/// The lines on the links of the last minutes.
+/// Lines on the links of the last minutes.
 #[derive(Default)]
 struct Wires {
     logs: Vec<(AntennaId, WireLog)>,
@@ -223,7 +223,7 @@ struct StoredPart {
     is_shown: bool,
 }
 
-/// Pass lists that were predicted anew, and what they follow from.
+/// Predicted pass lists, and the input of the prediction.
 struct PredictedAgain {
     station: Arc<Station>,
     elements: Arc<Vec<Elements>>,
@@ -247,7 +247,7 @@ impl Projector {
         &mut self.film
     }
 
-    /// The snapshot that the station showed at `time`; `None` before the first.
+    /// Returns the snapshot that the station showed at `time`; `None` before the first picture.
     pub fn seek(&mut self, time: Timestamp) -> Result<Option<Snapshot>, FilmError> {
         let Some(shown) = self.film.seek(time)? else { return Ok(None) };
         let run = shown.run;
@@ -306,7 +306,8 @@ impl Projector {
         Ok(Some(shown))
     }
 
-    /// The lines on the links of the antennas of `shown`, of some minutes up to `time`.
+    /// Returns the lines on the links of the antennas in `shown`, of the five minutes up to `time`.
+    /// `time`.
     pub fn wires(
         &mut self,
         shown: &Snapshot,
@@ -354,7 +355,7 @@ impl Projector {
         Ok(part)
     }
 
-    /// Puts the passes that the station showed into `shown`, from its elements.
+    /// Predicts the passes that the station showed from its elements, and puts them into `shown`.
     fn predict(
         &mut self,
         shown: &mut Snapshot,

@@ -33,19 +33,18 @@ use crate::{
     station::AntennaId,
 };
 
-/// Maximum number of waiting requests: a client sends a few per frame.
+/// Max number of pending requests; a client sends a few per frame.
 const REQUESTS: usize = 256;
-/// Maximum number of waiting events.
+/// Max number of pending events.
 const EVENTS: usize = 256;
-/// Maximum time for a station to end: its passes are reported on, its sessions send their last
-/// STOP, which is recorded.
+/// Max time for a station to end: it reports its passes, and its sessions send and record their
+/// last STOP.
 const FAREWELL: Duration = Duration::from_secs(10);
 
-/// A station that publishes nothing for this long counts as stuck.
+/// Time without a publication after which a station counts as stuck.
 const STANDS: Duration = Duration::from_secs(2);
 
-/// A request to the thread of a station: a command, who gave it, its serial number, and the time
-/// of the request.
+/// Request to the station thread: a command with its origin, serial number and time.
 pub(super) struct Request {
     pub(super) command: Command,
     pub(super) origin: CommandOrigin,
@@ -63,47 +62,47 @@ impl Request {
         )
     }
 
-    /// Returns `true` for a look at another pass, with the pass list as it was.
+    /// Returns `true` for a look at another pass that leaves the pass list unchanged.
     pub(super) fn is_look(&self, list: ListChoice) -> bool {
         matches!(self.command, Command::Look(attention) if attention.list == list)
     }
 }
 
-/// Items that must reach the station however many requests wait.
+/// Items that must reach the station even if the queue of requests is full.
 #[derive(Default)]
 pub(super) struct Urgent {
     pub(super) stops: Vec<Stopped>,
-    /// The program ends, and nobody can be asked.
+    /// `true` if the program ends and cannot ask the operator.
     pub(super) ends_unasked: bool,
-    /// The queue of requests was full.
+    /// `true` if the queue of requests was full.
     pub(super) has_turned_away: bool,
-    /// The Azel that drives an antenna did not confirm STOP.
+    /// `true` if the Azel that drives an antenna did not confirm STOP.
     pub(super) is_stop_lost: bool,
 }
 
-/// A STOP that was already sent to the sessions.
+/// STOP that was already sent to the sessions.
 #[derive(Debug, Clone)]
 pub struct Stopped {
     pub instant: Instant,
     /// Origin of the STOP.
     pub origin: CommandOrigin,
-    /// Antennas that it was sent to.
+    /// Antennas that received the STOP.
     pub antennas: Vec<AntennaId>,
-    /// Antennas that another Azel drives; the STOP is passed on to it.
+    /// Antennas of another Azel; the station passes the STOP on to it.
     pub elsewhere: Vec<AntennaId>,
-    /// Antennas of `antennas` that tracked then.
+    /// Antennas in `antennas` that tracked at that time.
     pub(super) tracked: Vec<AntennaId>,
-    /// STOP for all antennas that are connected or were moved.
+    /// `true` for a STOP of all antennas that are connected or were moved.
     pub(super) is_for_all: bool,
-    /// Newest session at that time; later ones have not had this STOP.
+    /// Newest session at that time; later sessions did not receive this STOP.
     pub(super) newest_session: u64,
 }
 
-/// The state that a station publishes.
+/// State that a station publishes.
 #[derive(Clone)]
 pub(super) struct Published {
     pub(super) snapshot: Arc<Snapshot>,
-    /// One for each antenna, in their order.
+    /// Connections of each antenna, in the order of the antennas.
     pub(super) ends: Arc<[AntennaEnds]>,
 }
 
@@ -111,13 +110,13 @@ pub(super) struct Published {
 pub(super) struct AntennaEnds {
     pub(super) id: AntennaId,
     pub(super) session: u64,
-    /// Another Azel drives the antenna.
+    /// `true` if another Azel drives the antenna.
     pub(super) is_elsewhere: bool,
     pub(super) stopper: Stopper,
     pub(super) wire: WireLog,
 }
 
-/// Interface of any client to a station. It does not keep the station running.
+/// Interface of any client to a station. A client does not keep the station running.
 #[derive(Clone)]
 pub struct Client {
     requests: mpsc::WeakSender<Request>,
@@ -144,13 +143,13 @@ impl Client {
         Self { requests, urgent: Arc::default(), woken, orders, published, clock, origin, board }
     }
 
-    /// The same for somebody else, as the record tells it.
+    /// Returns a client whose commands have this origin in the record.
     #[must_use]
     pub fn acting_for(self, origin: CommandOrigin) -> Self {
         Self { origin, ..self }
     }
 
-    /// The clocks of the station.
+    /// Returns the clocks of the station.
     pub(super) fn clock(&self) -> &Clock {
         &self.clock
     }
@@ -159,8 +158,8 @@ impl Client {
         &self.board
     }
 
-    /// Serves a program that is connected by `stream` to the port of an antenna, until it hangs
-    /// up or the port is closed. `peer` is its end of the connection.
+    /// Serves a program that `stream` connects to the port of an antenna, until the program hangs
+    /// up or the port closes. `peer` is the program's address.
     pub async fn serve(
         &self,
         antenna: AntennaId,
@@ -173,18 +172,18 @@ impl Client {
         }
     }
 
-    /// Time by the clocks of the station.
+    /// Returns the current time by the station's clocks.
     pub fn now(&self) -> Moment {
         self.clock.now()
     }
 
-    /// Queues a command. Returns it when the station has ended or is too busy; a station
-    /// that was too busy raises an alarm later.
+    /// Queues a command. Returns the command if the station has ended or is too busy; a busy
+    /// station raises an alarm later.
     pub fn send(&self, command: Command) -> Result<(), Command> {
         self.send_numbered(command).map(drop)
     }
 
-    /// The same; returns the number of the command among all.
+    /// Queues a command like [`Self::send`], and returns its number.
     pub(super) fn send_numbered(&self, command: Command) -> Result<u64, Command> {
         let number = self.orders.next();
         let Some(requests) = self.requests.upgrade() else { return Err(command) };
@@ -201,19 +200,19 @@ impl Client {
         Ok(number)
     }
 
-    /// Stops every antenna that is connected or was moved from here, past every queue;
-    /// never refused. Requests for the other antennas are void too.
+    /// Stops every antenna that is connected or was moved from here, past every queue. A STOP is
+    /// never refused. It also voids pending requests for the other antennas.
     pub fn stop_all(&self) -> Stopped {
         self.stop_those(None)
     }
 
-    /// Stops one antenna, even where that needs a connection.
+    /// Stops one antenna, even if its unit must first be connected.
     pub fn stop(&self, antenna: AntennaId) -> Stopped {
         self.stop_those(Some(antenna))
     }
 
     fn stop_those(&self, one: Option<AntennaId>) -> Stopped {
-        // The present antennas of the station, whatever is displayed.
+        // Use the station's current antennas, not the shown ones.
         let ends = Arc::clone(&self.published.borrow().ends);
         let mut stopped = Stopped {
             instant: self.clock.now().steady,
@@ -230,7 +229,7 @@ impl Client {
                 is_elsewhere = true;
                 stopped.elsewhere.push(*id);
             } else if one.map_or_else(|| stopper.is_wanted(), |one| *id == one) {
-                // The session may be quicker than the next lines.
+                // Check before the STOP: the session may react at once.
                 if stopper.tracks() {
                     stopped.tracked.push(*id);
                 }
@@ -240,12 +239,12 @@ impl Client {
                 stopper.forget();
             }
         }
-        // An antenna that is being reopened right now is not in `ends`.
+        // An antenna that is being reopened is missing from `ends`.
         if let Some(one) = one.filter(|_| stopped.antennas.is_empty() && !is_elsewhere) {
             stopped.antennas.push(one);
         }
-        // The station is not woken here: that would take a processor from the session,
-        // which has more urgent work and wakes the station afterwards.
+        // Do not wake the station: it would take a processor from the session, whose work is more
+        // urgent. The session wakes the station afterwards.
         self.urgent().stops.push(stopped.clone());
         if is_elsewhere {
             self.woken.notify_one();
@@ -254,23 +253,22 @@ impl Client {
     }
 
     pub(super) fn urgent(&self) -> MutexGuard<'_, Urgent> {
-        // No code panics while it holds the lock.
+        // No code panics while it holds this lock, so the data is valid even if poisoned.
         self.urgent.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The last published snapshot.
+    /// Returns the last published snapshot.
     pub fn snapshot(&self) -> Arc<Snapshot> {
         Arc::clone(&self.published.borrow().snapshot)
     }
 
-    /// Waits for the next snapshot. Returns `false` when the station has ended.
+    /// Waits for the next snapshot. Returns `false` once the station has ended.
     pub async fn changed(&mut self) -> bool {
         self.published.changed().await.is_ok()
     }
 }
 
-/// The owner's handle on a running station. Dropping it ends the station, and each jog
-/// first with a stop.
+/// Owner's handle on a running station. Dropping it ends the station, which first stops each jog.
 pub struct Handle {
     client: Client,
     requests: mpsc::Sender<Request>,
@@ -280,8 +278,7 @@ pub struct Handle {
 }
 
 impl Handle {
-    /// Starts a station on a thread of its own, which calls `wake` after every change worth
-    /// showing.
+    /// Starts a station on its own thread. The station calls `wake` after every visible change.
     pub fn start(settings: Settings, outside: impl Into<Outside>, wake: Wake) -> io::Result<Self> {
         let outside = outside.into();
         let (requests, inbox) = mpsc::channel(REQUESTS);
@@ -295,7 +292,7 @@ impl Handle {
             let outbox = super::Outbox { events: tell, wake };
             match Engine::new(&settings, outside, outbox, weak) {
                 Ok((engine, client)) => {
-                    // Nobody may be waiting any more.
+                    // The caller may no longer wait for the client.
                     drop(begun.send(Ok(client)));
                     runtime.block_on(engine.run(inbox));
                 }
@@ -310,12 +307,12 @@ impl Handle {
         Ok(Self { client, requests, shown, events, ended })
     }
 
-    /// For other parts that send commands or STOP.
+    /// Returns the client, for other parts that send commands or STOP.
     pub fn client(&self) -> &Client {
         &self.client
     }
 
-    /// Takes the last published state. Returns `false` if it was taken before.
+    /// Takes the last published state. Returns `false` if it is unchanged since the last call.
     pub fn take(&mut self) -> bool {
         let is_new = self.client.published.has_changed().unwrap_or_default();
         if is_new {
@@ -324,20 +321,20 @@ impl Handle {
         is_new
     }
 
-    /// The last taken snapshot.
+    /// Returns the last taken snapshot.
     pub fn snapshot(&self) -> &Arc<Snapshot> {
         &self.shown.snapshot
     }
 
-    /// Time for which the station has published nothing, from two seconds on. It normally
-    /// publishes every second.
+    /// Returns the time without a publication, from two seconds on. A station normally publishes
+    /// every second.
     pub fn stood_for(&self) -> Option<Duration> {
         let shown = self.client.published.borrow().snapshot.moment.steady;
         let stood = self.client.now().steady.saturating_duration_since(shown);
         (stood >= STANDS).then_some(stood)
     }
 
-    /// The wire log of an antenna.
+    /// Returns the wire log of an antenna.
     pub fn wire(&self, antenna: AntennaId) -> Option<WireLog> {
         let antenna_ends = self.shown.ends.iter().find(|ends| ends.id == antenna);
         antenna_ends.map(|ends| ends.wire.clone())
@@ -348,12 +345,12 @@ impl Handle {
         self.events.try_recv().ok()
     }
 
-    /// Returns `false` if the station is no longer running, as after a panic.
+    /// Returns `false` once the station no longer runs, for example after a panic.
     pub fn runs(&self) -> bool {
         !self.requests.is_closed()
     }
 
-    /// Ends as the station file says, without asking anybody.
+    /// Stops active antennas unless the station file says to leave them. Does not ask the operator.
     pub fn end_unasked(&self) {
         self.client.urgent().ends_unasked = true;
         self.client.woken.notify_one();
@@ -365,7 +362,7 @@ impl Handle {
         self.requests = closed;
     }
 
-    /// Returns `true` once a station that was to end has done so.
+    /// Returns `true` once the station has ended.
     pub fn has_ended(&self) -> bool {
         self.ended.try_recv() != Err(TryRecvError::Empty)
     }
@@ -374,7 +371,7 @@ impl Handle {
 impl Drop for Handle {
     fn drop(&mut self) {
         self.begin_end();
-        // A station that panicked reports nothing.
+        // A station that panicked drops its sender, which ends this wait early.
         if self.ended.recv_timeout(FAREWELL) == Err(RecvTimeoutError::Timeout) {
             tracing::error!("the station did not end in time");
         }

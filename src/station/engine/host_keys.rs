@@ -1,4 +1,4 @@
-//! Host keys that need a decision of the operator, and the decision itself.
+//! Host keys that the operator must decide about, and the decision.
 
 use crate::{
     contract::{host_keys::DoubtfulKey, transfer::Peer},
@@ -15,7 +15,7 @@ fn doubtful_key(offered: &OfferedKey, pinned: Vec<String>) -> DoubtfulKey {
     }
 }
 
-/// The key behind `error` if the operator can decide about it, or else the error.
+/// Returns the key behind `error` if the operator can decide about it, or else the error.
 pub(super) fn doubtful(
     error: ConnectError,
 ) -> Result<(Box<OfferedKey>, DoubtfulKey), ConnectError> {
@@ -30,13 +30,14 @@ pub(super) fn doubtful(
 
 /// Decision of the operator.
 pub(super) enum Decision {
-    /// Trust this key.
+    /// Trust in this key.
     Trust(Box<OfferedKey>),
-    /// Forget all known keys of the host.
+    /// Removal of all known keys of the host.
     Forget(Peer),
 }
 
-/// Starts writing the decision to the file of known hosts. The job returns why that failed.
+/// Starts writing the decision to the file of known hosts. The job's result is the reason of a
+/// failure.
 pub(super) fn decide(
     known_hosts: &KnownHosts,
     decision: Decision,

@@ -1,4 +1,4 @@
-//! A station that runs where it is awaited, without a thread of its own.
+//! Station that runs in the caller's runtime, without a thread of its own.
 
 use std::{future::Future, io, sync::Arc};
 
@@ -10,20 +10,19 @@ use crate::{
     driver::{Driver, Outside},
 };
 
-/// Most requests that wait.
+/// Max number of pending requests.
 const REQUESTS: usize = 64;
-/// Most events that wait.
+/// Max number of pending events.
 const EVENTS: usize = 64;
 
-/// A station in the runtime in which it is started. It ends when this is dropped and its future,
-/// which runs it, is awaited to the end.
+/// Station in the caller's runtime. To end it, drop `InPlace` and await its future to the end.
 pub struct InPlace {
     client: Client,
     _requests: mpsc::Sender<Request>,
 }
 
 impl InPlace {
-    /// Starts a station. Its sessions are tasks of the present runtime.
+    /// Starts a station. Its sessions are tasks of the current runtime.
     pub fn start(
         settings: &Settings,
         outside: Outside,
@@ -31,7 +30,7 @@ impl InPlace {
         let runtime = tokio::runtime::Handle::try_current().map_err(io::Error::other)?;
         let (requests, inbox) = mpsc::channel(REQUESTS);
         let (tell, mut events) = mpsc::channel::<Event>(EVENTS);
-        // The snapshots hold the content of the events too.
+        // Discard events: the snapshots have their content too.
         runtime.spawn(async move { while events.recv().await.is_some() {} });
         let woken = Arc::new(Notify::new());
         let driver = Driver::within(runtime, outside.clone(), wake_of(&woken))

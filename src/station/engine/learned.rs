@@ -1,4 +1,4 @@
-//! Properties of drives that the sessions have learned, kept in a file beside the station file.
+//! Learned properties of drives, in a file beside the station file.
 
 use std::{fs, io, path::Path, time::Duration};
 
@@ -12,21 +12,21 @@ use crate::{
     station,
 };
 
-/// The file is named like the station file, but for this.
+/// Extension that replaces the one of the station file.
 const EXTENSION: &str = "drives.toml";
-/// The disk is not written more often.
+/// Min time between two saves.
 const SAVES_EVERY: Duration = Duration::from_mins(10);
-/// Maximum number of units in the file. Those that left the station first are dropped.
+/// Max number of units in the file. Azel drops the units that left the station first.
 const MAX_UNITS: usize = 256;
 
-/// The drives of each unit, also of those that the station no longer has: an antenna may come back.
+/// Drives of each unit, including units that left the station: an antenna may return.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct LearnedDrives {
     units: Vec<UnitDrives>,
-    /// Content of the file, as last requested.
+    /// Last requested content of the file.
     requested: Vec<UnitDrives>,
     saved: Option<Instant>,
-    /// The file is there, but it cannot be read. It is left as it is.
+    /// `true` if the file exists but cannot be read; Azel leaves it unchanged.
     is_unread: bool,
 }
 
@@ -51,8 +51,7 @@ impl UnitDrives {
 }
 
 impl LearnedDrives {
-    /// Reads the file at `path`. Entries that cannot be read, or that no drive can have, are left
-    /// out.
+    /// Reads the file at `path`. Skips unreadable entries and impossible values.
     fn load(path: &Path) -> Self {
         let text = match fs::read_to_string(path) {
             Ok(text) => text,
@@ -121,12 +120,12 @@ impl Engine {
         self.learned_drives = path.as_deref().map(LearnedDrives::load).unwrap_or_default();
     }
 
-    /// Returns what was learned of an antenna's unit before.
+    /// Returns the learned properties of the drives of an antenna's unit.
     pub(super) fn learned_drives(&self, config: &station::Antenna) -> [AxisLessons; 2] {
         self.learned_drives.axes(&Unit::new(config))
     }
 
-    /// Takes what the sessions have learned. A unit that another Azel drives keeps what is known of it.
+    /// Adopts the learned properties from the sessions, except for units that another Azel drives.
     pub(super) fn note_learned_drives(&mut self) {
         let ours = self.antennas.iter().filter(|antenna| antenna.shown.held_by.is_none());
         let learned = ours
@@ -137,7 +136,7 @@ impl Engine {
         }
     }
 
-    /// Requests that the disk takes what was learned, unless that was recently.
+    /// Saves the learned properties, at most once per [`SAVES_EVERY`].
     pub(super) fn keep_learned_drives(&mut self) {
         let saved = self.learned_drives.saved.get_or_insert(self.steady);
         if self.steady < *saved + SAVES_EVERY {
@@ -147,7 +146,8 @@ impl Engine {
         self.save_learned_drives(false);
     }
 
-    /// Saves what was learned; `waits`: before the program ends.
+    /// Saves the learned properties. `waits` blocks until the disk has them, for the end of the
+    /// program.
     pub(super) fn save_learned_drives(&mut self, waits: bool) {
         let Some(path) = self.beside_station(EXTENSION) else { return };
         if self.learned_drives.is_unread {

@@ -1,4 +1,5 @@
-//! Tests of links to units that are not part of the station yet: each asks and hangs up.
+//! Tests of links to units that may not be part of the station yet. A test asks the unit and hangs
+//! up.
 
 use std::sync::Arc;
 
@@ -13,10 +14,10 @@ use crate::{
     station::{Antenna, AntennaId},
 };
 
-/// Maximum number of tests that are kept.
+/// Max number of stored tests.
 const MAX_TESTS: usize = 16;
 
-/// Runs the tests, each on a thread of its own.
+/// Runner of the tests, each on its own thread.
 pub(super) struct Runner {
     outside: Outside,
     wake: Wake,
@@ -28,14 +29,14 @@ impl Runner {
         Self { outside, wake, under_way: Vec::new() }
     }
 
-    /// Starts a test; `lock` keeps other programs off the unit until it ends.
+    /// Starts a test. `lock` keeps other programs off the unit until the test ends.
     fn begin(&mut self, antenna: &Antenna, lock: Arc<dyn UnitLock>) {
         let (config, outside) = (antenna.clone(), self.outside.clone());
         let work = move |_: &(dyn Fn() -> bool + Sync)| {
             let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
             let Ok(runtime) = runtime else { return not_begun() };
             let finding = runtime.block_on(test_link(&config, &outside, lock));
-            // A port that does not open, or a name that is not found, holds up nothing.
+            // Do not wait for a port that does not open or a name that is not found.
             runtime.shutdown_background();
             finding
         };
@@ -43,7 +44,7 @@ impl Runner {
         self.under_way.push((antenna.id, Some(job)));
     }
 
-    /// Takes the outcomes that have come in.
+    /// Collects the outcomes of finished tests.
     pub(super) fn poll(&mut self, shown: &mut [LinkTest]) {
         let time = self.outside.clock.utc();
         for (id, job) in &mut self.under_way {
@@ -65,8 +66,8 @@ fn not_begun() -> LinkFinding {
 }
 
 impl Engine {
-    /// Tests the link of an antenna that the station need not have. One test of an antenna at a
-    /// time.
+    /// Tests the link of an antenna, which need not belong to the station. Runs one test of an
+    /// antenna at a time.
     pub(super) fn test_link(&mut self, antenna: Antenna) {
         let tests = &self.link_tests;
         let place = tests.iter().position(|test| test.antenna.id == antenna.id);

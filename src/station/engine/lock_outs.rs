@@ -1,4 +1,4 @@
-//! Locked-out units: the file beside the station file, and the sessions that need to know.
+//! Locked-out units: the file beside the station file, and the sessions that must know.
 
 use std::{path::Path, sync::Arc};
 
@@ -11,7 +11,7 @@ use crate::{
 };
 
 impl Engine {
-    /// Reads the list anew. An unreadable list locks out every unit.
+    /// Reloads the list. An unreadable list locks out every unit.
     pub(super) fn load_lock_outs(&mut self) {
         let folder = self.settings_path.as_deref().and_then(Path::parent);
         let path = folder.map(|folder| folder.join(LOCK_OUTS_FILE));
@@ -36,7 +36,7 @@ impl Engine {
         let (name, connection) = (config.name.clone(), config.connection.clone());
         let is_locked = lock_out.is_some();
         if self.demo.is_none() {
-            // Another Azel may have written the list, for another station beside this one.
+            // Another Azel may have written the list, for another station in this folder.
             self.load_lock_outs();
         }
         let station = Arc::clone(&self.station);
@@ -51,7 +51,7 @@ impl Engine {
         }
     }
 
-    /// Carries lock-outs over to other antennas: a lock-out stays with its antenna.
+    /// Moves lock-outs to the new addresses of their antennas.
     pub(super) fn keep_locked_out(&mut self, after: &[Antenna]) {
         let antennas = self.antennas.iter();
         let before: Vec<Antenna> =
@@ -88,8 +88,7 @@ impl Engine {
         }
     }
 
-    /// Sends a session its lock-out until its snapshot shows the same: a STOP voids an
-    /// unlock.
+    /// Sends a session its lock-out until the snapshot shows it: a STOP voids an unlock.
     pub(super) fn tell_lock_out(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get(index) else { return };
         if antenna.shown.held_by.is_some() {

@@ -1,4 +1,4 @@
-//! The older sets of the object that a client looks at, read from the library, and those in use.
+//! Older element sets of the object that a client looks at, and older sets in use.
 
 use std::{path::Path, sync::Arc};
 
@@ -10,7 +10,7 @@ use crate::{
     orbit::Catalog,
 };
 
-/// The reading of older sets.
+/// Reading of older sets from the library.
 #[derive(Default)]
 pub(super) struct Reading {
     requested: Option<u32>,
@@ -24,7 +24,7 @@ impl Engine {
         self.read_older_sets();
     }
 
-    /// Reads the older sets of the same object anew.
+    /// Reads the older sets of the same object again.
     pub(super) fn read_older_sets(&mut self) {
         let Some(catalog_number) = self.older_reading.requested else { return };
         let Some(folder) = self.places.library() else { return };
@@ -43,8 +43,8 @@ impl Engine {
     }
 }
 
-/// Takes `choice` into the library, and puts the older sets that the operator uses, and those of
-/// preferred sources, into `catalog`.
+/// Saves `choice` in the library, and applies the operator's older sets and the preferred sources
+/// to `catalog`.
 pub(super) fn use_older_sets(
     folder: &Path,
     choice: Option<SetChoice>,

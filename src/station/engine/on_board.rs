@@ -1,4 +1,4 @@
-//! On-board track: the window for the unit, and a judgement of its pass by the unit's own
+//! On-board track: the tracking window for the unit, and a judgement of its pass by the unit's
 //! settings.
 
 use std::sync::Arc;
@@ -24,7 +24,7 @@ use crate::{
     station,
 };
 
-/// The on-board pass for the unit of `antenna`.
+/// Returns the on-board pass for the unit of `antenna`.
 pub(super) fn pass_for(
     predicted: &PredictedPass,
     antenna: &station::Antenna,
@@ -37,7 +37,7 @@ pub(super) fn pass_for(
         catalog_number: elements.catalog_number(),
         name: elements.name().to_owned(),
         element_file: antenna.connection.element_file(),
-        // For a pass under way the window begins now.
+        // The window of a pass under way begins now.
         start: start.max(add_seconds(now, -1.0)),
         end,
     };
@@ -45,10 +45,10 @@ pub(super) fn pass_for(
 }
 
 impl Engine {
-    /// Starts on-board track of a pass. `is_agreed`: the operator knows that the unit may
+    /// Starts on-board track of a pass. With `is_agreed`, the operator accepts that the unit may
     /// miss.
     pub(super) fn track_on_board(&mut self, index: usize, pass: PassListKey, is_agreed: bool) {
-        // A pass that has ended since the request is not replaced by another.
+        // If the pass has ended since the request, Azel does not take another one.
         let Some(predicted) = self.pass(pass) else { return };
         let (site, now) = (self.station.site, self.now);
         let Some(antenna) = self.antennas.get(index) else { return };
@@ -65,7 +65,7 @@ impl Engine {
         }
     }
 
-    /// Judges how the unit of an antenna would track the selected or else the next pass.
+    /// Judges how the unit of an antenna would track the selected or next pass.
     pub(super) fn judge_unit(&mut self, index: usize) {
         let judged = self.antennas.get(index).and_then(|antenna| self.judged(&antenna.shown));
         if let Some(antenna) = self.antennas.get_mut(index) {
@@ -73,9 +73,9 @@ impl Engine {
         }
     }
 
-    /// The judgement of the unit of `antenna`, kept where nothing has changed.
+    /// Returns the judgement of `antenna`'s unit; keeps the previous one if nothing has changed.
     fn judged(&self, antenna: &AntennaModel) -> Option<Judged> {
-        // Azel takes back the offsets of the current track after it.
+        // Azel takes back the offsets of the current track after the track.
         let unit =
             &antenna.snapshot.state.on_board.without_offsets(antenna.snapshot.meant_offsets());
         let is_told = unit.place.is_some() || unit.clock.is_some() || unit.offsets.is_some();
@@ -99,7 +99,7 @@ impl Engine {
 }
 
 impl Engine {
-    /// Sends the session of an antenna the orbit by which to judge on-board track.
+    /// Sends the session of an antenna the orbit for judging on-board track.
     pub(super) fn tell_orbit(&mut self, index: usize) {
         let CatalogState::Ready(catalog) = &self.catalog else { return };
         let Some(antenna) = self.antennas.get_mut(index) else { return };
@@ -120,7 +120,7 @@ impl Engine {
         antenna.handle.know_orbit(orbit);
     }
 
-    /// Raises and clears alarms about on-board track, present or judged.
+    /// Raises and clears alarms about current or judged on-board track.
     pub(super) fn watch_on_board(&mut self, index: usize) {
         let Some(Antenna { shown: antenna, .. }) = self.antennas.get(index) else { return };
         let (alarms, now, antenna_id) = (&mut self.alarms, self.now, Some(antenna.id()));
@@ -137,7 +137,7 @@ impl Engine {
         let is_missed = |kind: &AlarmKind| matches!(kind, AlarmKind::OffTarget { .. });
         alarms.follow(antenna_id, now, missed, is_missed);
         let differs = antenna.misses().and_then(|found| found.causes.first());
-        // Two causes of nearly the same size would ring in turn: the standing one goes on.
+        // Two causes of nearly the same size would alternate, so the active one stays.
         let standing = antenna.misses().into_iter().flat_map(|found| &found.causes).find(|cause| {
             let kind = AlarmKind::UnitDiffers((*cause).clone());
             let is_large = differs.is_some_and(|first| {
@@ -160,8 +160,8 @@ impl Engine {
     }
 }
 
-/// Why the antenna is `deviation` its satellite: what its positions show, such as an axis that stands, or
-/// else what the unit reports of itantenna.
+/// Returns why the antenna is `deviation` off its satellite: the measured cause, such as a stopped
+/// axis, or else the reported one.
 pub(super) fn off_because(
     antenna: &AntennaModel,
     deviation: Angle,
@@ -171,8 +171,7 @@ pub(super) fn off_because(
     explained.cloned().map(OffTargetCause::Measured).or(reported)
 }
 
-/// Alarm for on-board track that cannot be compared with elements: the operator must
-/// watch it alone.
+/// Returns an alarm if elements cannot confirm on-board track: the operator must watch it.
 fn not_compared(antenna: &AntennaModel) -> Option<AlarmKind> {
     let Snapshot { state, program_track, link, .. } = &*antenna.snapshot;
     let tracks = state.program.is_some_and(|program| program.enabled);
@@ -182,13 +181,13 @@ fn not_compared(antenna: &AntennaModel) -> Option<AlarmKind> {
     match &state.on_board.satellite {
         Some(unnamed) if unnamed.catalog_number == 0 && unnamed.name.is_empty() => None,
         Some(named) => Some(AlarmKind::NotCompared { satellite: Some(named.name.clone()) }),
-        // A unit that takes satellites from here soon reports which one it holds.
+        // A unit that takes satellites from Azel soon reports the one it has.
         None if antenna.variant().capabilities.has_program => None,
         None => Some(AlarmKind::NotCompared { satellite: None }),
     }
 }
 
-/// Without figures that change from one reading to the next.
+/// Returns `unit` without values that change from one reading to the next.
 fn rounded(unit: &OnBoard) -> OnBoard {
     let tenths = |seconds: f64| (seconds * 5.0).round() / 5.0;
     OnBoard {

@@ -1,4 +1,4 @@
-//! A look at a station file before the station in use makes way for it.
+//! Check of a station file before the current station makes way for it.
 
 use std::path::PathBuf;
 
@@ -9,7 +9,7 @@ use crate::{
     station::{self, LoadError},
 };
 
-/// Why a station cannot be opened. Nothing was changed.
+/// Reason why a station cannot be opened. Azel has changed nothing.
 #[derive(Debug, thiserror::Error)]
 pub enum CannotOpen {
     #[error("the file is gone: {}", .0.display())]

@@ -1,5 +1,5 @@
-//! STOPs, ends of auto-track and offsets that are owed to units that no antenna of the station has:
-//! the antenna was deleted, or given another address, while it moved or tracked on its own.
+//! STOPs, ends of auto-track and offsets owed to units that no antenna of the station has. The
+//! antenna was deleted or got another address while it moved or tracked on its own.
 
 use std::{collections::BTreeSet, sync::Arc};
 
@@ -19,8 +19,8 @@ use crate::{
 };
 
 impl Engine {
-    /// Sends STOP to the units that an earlier run may have left moving, and switches auto-track off
-    /// where it owes that, if no antenna has the unit: each has a session that ends once it is paid.
+    /// Opens sessions for units without an antenna that an earlier run may have left moving or in
+    /// auto-track. Each session sends STOP or switches auto-track off, and then ends.
     pub(super) fn pay_left_debts(&mut self) {
         let debts = self.driver.debts();
         let has_it = |unit: &Unit| {
@@ -30,7 +30,7 @@ impl Engine {
             debts.with_auto_track().into_iter().chain(debts.left_moving()).collect();
         for unit in left.into_iter().filter(|unit| !has_it(unit)) {
             let spec = SPECS.iter().find(|spec| spec.key == unit.make);
-            // A unit of a make that this version does not know stays an alarm.
+            // A unit of an unknown make keeps its alarm.
             let Some(spec) = spec else { continue };
             let antenna = spec.antenna(&unit.address, &unit.address);
             match self.claim_unit(&antenna, None) {
@@ -47,8 +47,8 @@ impl Engine {
         }
     }
 
-    /// Leaves what is owed to a unit that turned out to be driven by another process, when its name
-    /// was looked up, to that process.
+    /// Leaves the debts of a unit to another process if a name lookup showed that this process
+    /// drives the unit.
     pub(super) fn settle_left_units(&mut self) {
         let debts = self.driver.debts();
         self.left_units.retain(|(unit, claim)| {
@@ -62,7 +62,7 @@ impl Engine {
     }
 }
 
-/// The alarms about units to which something is owed and that none of `antennas` has.
+/// Returns alarms about units with debts that none of `antennas` has.
 pub(super) fn strangers<'a>(
     debts: &Debts,
     antennas: impl Iterator<Item = &'a Antenna>,
@@ -77,7 +77,7 @@ pub(super) fn strangers<'a>(
     owed.chain(offsets.map(AlarmKind::OffsetsOwed)).collect()
 }
 
-/// Raises these alarms, and clears those whose debt is paid.
+/// Raises these alarms, and clears alarms whose debt is settled.
 pub(super) fn tell(alarms: &mut Alarms, strangers: Vec<AlarmKind>, now: Timestamp) {
     alarms.clear(None, now, |kind| {
         let is_that = matches!(

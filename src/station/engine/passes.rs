@@ -21,21 +21,20 @@ use crate::{
     station::Station,
 };
 
-/// Hours ahead for the passes of the favourites at least: the strip shows this much, whatever
-/// the list shows.
+/// Min span of the favourites' passes, hours; the strip shows this span for any list.
 const FAVOURITES_H: u32 = 48;
 
-/// The searches for the pass lists.
+/// Searches for the pass lists.
 #[derive(Default)]
 pub(in crate::engine) struct Searches {
     favourites: Search,
     all: Search,
-    /// The key of the favourites, with the station that it is of.
+    /// Station and search key of the favourites.
     key: Option<(Arc<Station>, SearchKey)>,
 }
 
 impl Searches {
-    /// Takes the passes that were found, and begins the searches that are needed.
+    /// Collects found passes, and starts the searches that are needed.
     pub(in crate::engine) fn refresh(
         &mut self,
         catalog: &Arc<Catalog>,
@@ -53,7 +52,7 @@ impl Searches {
         }
     }
 
-    /// Made anew where the catalog or the station is another.
+    /// Returns the key of the favourites; a changed catalog or station makes a new key.
     fn key_of_favourites(&mut self, catalog: &Arc<Catalog>, station: &Arc<Station>) -> SearchKey {
         let is_of = |(searched, key): &(Arc<Station>, SearchKey)| {
             Arc::ptr_eq(searched, station) && Arc::ptr_eq(&key.catalog, catalog)
@@ -83,7 +82,7 @@ impl Searches {
     }
 }
 
-/// The lists that were made at `made_at` of these elements of the favourites, predicted anew.
+/// Predicts the favourites' lists again as they were at `made_at`.
 pub(in crate::engine) fn again(
     catalog: &Arc<Catalog>,
     elements: &[Elements],

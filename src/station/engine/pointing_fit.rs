@@ -1,4 +1,4 @@
-//! The fit of a pointing model that a client asked for, and the peaks that count in it.
+//! Fit of a pointing model for a client, and the peaks that count in the fit.
 
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
@@ -14,26 +14,26 @@ use crate::{
     station::AntennaId,
 };
 
-/// Time until peaks that could not be read are read again.
+/// Pause before Azel reads peaks again after a failure.
 const AGAIN: Duration = Duration::from_secs(5);
 
-/// The fit that is worked out, or was last.
+/// Current or last fit, and the peaks of the record.
 #[derive(Default)]
 pub(super) struct PointingWork {
     pub(super) fitted: Option<Arc<PointingFitted>>,
     job: Option<Job<PointingFitted>>,
-    /// A fit that begins when the peaks have been read.
+    /// Pending fit that starts once the peaks are read.
     waiting: Option<(AntennaId, Vec<Term>)>,
     pub(super) peaks: Arc<Peaks>,
-    /// The record that they are of.
+    /// Record that `peaks` belongs to.
     peaks_of: Option<PathBuf>,
     peaks_state: PeaksState,
 }
 
-/// How far the peaks of the record are known.
+/// Reading state of the record's peaks.
 #[derive(Default)]
 enum PeaksState {
-    /// There is no record.
+    /// No record is in use.
     #[default]
     None,
     Reading(Job<Result<Peaks, RecordError>>),
@@ -44,11 +44,11 @@ enum PeaksState {
     Known,
 }
 
-/// The peaks that count in a fit.
+/// Peaks that count in a fit.
 #[derive(Debug, PartialEq)]
 enum Counting {
     Peaks(Vec<Peak>),
-    /// They are being read.
+    /// The peaks are still being read.
     NotYet,
     Unread(String),
 }
@@ -73,13 +73,13 @@ impl PointingWork {
         let reason = match job.end() {
             None => return,
             Some(Ok(Ok(mut read))) => {
-                // Peaks that were entered during the read.
+                // Add the peaks that were entered during the read.
                 read.extend(&self.peaks);
                 self.peaks = Arc::new(read);
                 self.peaks_state = PeaksState::Known;
                 return;
             }
-            // The record may just be made.
+            // The read may fail while the record is being created, so Azel tries again.
             Some(Ok(Err(error))) => error.to_string(),
             Some(Err(error)) => error.to_string(),
         };
@@ -88,7 +88,7 @@ impl PointingWork {
 }
 
 impl Engine {
-    /// Reads the peaks of the record in use, where that is another one.
+    /// Reads the peaks of the record in use if the record changed or a retry is due.
     pub(super) fn read_peaks(&mut self) {
         let path = self.record_file();
         let work = &mut self.pointing_work;
@@ -109,15 +109,15 @@ impl Engine {
             }));
     }
 
-    /// Records a change of the peaks, from which on clients and fits see it.
+    /// Records a change of the peaks; clients and fits then see the change.
     pub(super) fn change_peaks(&mut self, antenna: AntennaId, change: PeakChange) {
         if self.note_peak(antenna, change) {
             Arc::make_mut(&mut self.pointing_work.peaks).change(antenna, change);
         }
     }
 
-    /// Publishes the pointing model that fits the recorded passes and the peaks of `antenna` best,
-    /// `excluded` some terms.
+    /// Publishes the pointing model that best fits the recorded passes and peaks of `antenna`,
+    /// without the `excluded` terms.
     pub(super) fn fit_pointing(&mut self, antenna: AntennaId, excluded: Vec<Term>) {
         let path = self.record_file();
         let work = &mut self.pointing_work;

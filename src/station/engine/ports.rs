@@ -1,6 +1,6 @@
-//! The ports on which other programs point the antennas, by Hamlib's rotctld protocol. They run on
-//! a thread of their own and are clients of the station like a window: they read snapshots and
-//! queue commands, and the rules of control decide about these.
+//! Ports on which other programs point the antennas with Hamlib's rotctld protocol. The ports run
+//! on their own thread and are clients of the station like a window: they read snapshots and queue
+//! commands. The rules of control decide about these commands.
 
 mod answers;
 mod board;
@@ -20,9 +20,9 @@ use crate::{contract::control::PortState, station::AntennaId};
 pub(super) use board::Board;
 pub(super) use connection::converse;
 
-/// Connections of a port; further ones are refused.
+/// Max number of connections per port; Azel refuses further connections.
 const MAX_CONNECTIONS: usize = 16;
-/// Interval between attempts to listen on a port that another program has.
+/// Pause before Azel tries again to listen on a port that another program has.
 const TRIES_AGAIN: Duration = Duration::from_secs(5);
 
 /// Ports to listen on.
@@ -30,14 +30,14 @@ type Addresses = HashMap<AntennaId, SocketAddr>;
 /// State of each port.
 type States = HashMap<AntennaId, PortState>;
 
-/// The listening ports of a station. They are closed when this is dropped.
+/// Listening ports of a station. Dropping `Ports` closes them.
 pub(super) struct Ports {
     addresses: watch::Sender<Addresses>,
     states: watch::Receiver<States>,
 }
 
 impl Ports {
-    /// Starts the thread, which listens nowhere yet.
+    /// Starts the thread, which does not listen on any port yet.
     pub(super) fn start(station: Client) -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let (addresses, address_changes) = watch::channel(Addresses::new());
@@ -49,7 +49,7 @@ impl Ports {
         Ok(Self { addresses, states })
     }
 
-    /// Listens on these ports and no others.
+    /// Listens on exactly these ports.
     pub(super) fn listen(&self, ports: impl Iterator<Item = (AntennaId, SocketAddr)>) {
         let ports: Addresses = ports.collect();
         self.addresses.send_if_modified(|addresses| {
@@ -59,7 +59,7 @@ impl Ports {
         });
     }
 
-    /// State of the port of an antenna.
+    /// Returns the state of an antenna's port.
     pub(super) fn state(&self, antenna: AntennaId) -> PortState {
         self.states.borrow().get(&antenna).cloned().unwrap_or_default()
     }
@@ -117,7 +117,7 @@ async fn listen(
             Ok(listener) => break listener,
             Err(error) => {
                 tracing::warn!(%address, %error, "the port cannot be opened");
-                // The receiver lives as long as this task.
+                // The receiver outlives this task.
                 let _ = report.send((antenna, PortState::Failed(error.to_string()))).await;
                 tokio::time::sleep(TRIES_AGAIN).await;
             }
@@ -128,7 +128,7 @@ async fn listen(
     loop {
         match listener.accept().await {
             Ok((stream, peer)) => {
-                // Answers are short, and clients wait for each of them.
+                // Send at once: answers are short, and clients wait for each answer.
                 if let Err(error) = stream.set_nodelay(true) {
                     tracing::debug!(%peer, %error, "no quick answers");
                 }

@@ -1,4 +1,5 @@
-//! Ways to a process that holds a lock: its socket, and a signal where that does not answer.
+//! Ways to reach a process that holds a lock: its socket, or a signal if the socket does not
+//! answer.
 
 use std::{fmt, io, path::PathBuf};
 
@@ -18,10 +19,11 @@ use crate::{
     station::Antenna,
 };
 
-/// Outcome of a question to one process.
+/// Outcome of a request to one process.
 #[derive(Debug)]
 pub struct Reached {
-    /// `None` for a process that answers at the socket without holding the lock.
+    /// Holder of the lock; `None` for a process that answers at the socket without holding the
+    /// lock.
     pub holder: Option<LockHolder>,
     pub outcome: Outcome,
 }
@@ -29,31 +31,31 @@ pub struct Reached {
 #[derive(Debug)]
 pub enum Outcome {
     Answered(Answer),
-    /// STOP for all antennas went there as a signal. Nothing proves that they stand.
+    /// The process received STOP for all antennas as a signal. Their standstill is not proved.
     Signalled,
     NotReached(String),
 }
 
-/// A process that holds a lock.
+/// Process that holds a lock.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LockHolder {
     process: Option<u32>,
-    /// Content of its file.
+    /// Content of the lock file.
     holder: Option<Holder>,
     evidence: Evidence,
 }
 
-/// How the process is known to hold the lock.
+/// Evidence that the process holds the lock.
 #[derive(Debug, Clone, PartialEq)]
 enum Evidence {
-    /// It has locked this file.
+    /// Lock file that the process has locked.
     File(PathBuf),
-    /// It listens at this name of the machine.
+    /// Name in this machine's socket namespace that the process listens at.
     #[cfg(target_os = "linux")]
     Name(String),
 }
 
-/// A question on its way, or the outcome where it did not leave.
+/// Request that was sent, or the outcome of a failed one.
 pub(super) enum Delivered {
     Asked(Connection),
     Over(Outcome),
@@ -69,8 +71,8 @@ impl fmt::Display for LockHolder {
     }
 }
 
-/// Asks every process that holds the station file at `path`, whatever its environment. Blocks until
-/// all have answered.
+/// Asks every process that holds the station file at `path`, including processes with another
+/// environment. Blocks until all have answered.
 pub fn ask_station(
     folders: &LockFolders,
     path: &std::path::Path,
@@ -79,7 +81,7 @@ pub fn ask_station(
     blocking(async {
         let mut holders = holders(folders, &station_lock(path)).await;
         let mut tasks = JoinSet::new();
-        // The lock file of an older version may be gone while its socket is there.
+        // The lock file of an older version may be missing while its socket exists.
         for folder in folders.paths() {
             let Ok(connection) = send(&socket_path(folder, path), ask).await else { continue };
             let is_behind = |holder: &LockHolder| {
@@ -96,8 +98,8 @@ pub fn ask_station(
     })
 }
 
-/// Stops the units of these antennas in every process that holds one. Blocks until all have
-/// answered, and while the name service looks for the units.
+/// Stops the units of these antennas in every process that holds one. Blocks during name lookups,
+/// and until all processes have answered.
 pub fn stop_units(folders: &LockFolders, antennas: &[Antenna]) -> io::Result<Vec<Reached>> {
     blocking(async {
         let mut all: Vec<LockHolder> = Vec::new();
@@ -131,7 +133,8 @@ fn blocking<T>(work: impl Future<Output = T>) -> io::Result<T> {
     Ok(runtime.block_on(work))
 }
 
-/// The processes that hold `lock`. More than one holds it only if an older version is among them.
+/// Returns the processes that hold `lock`. Several can hold it only if one of them is an older
+/// version.
 pub(super) async fn holders(folders: &LockFolders, lock: &str) -> Vec<LockHolder> {
     let mut holders: Vec<LockHolder> = Vec::new();
     let mut add = |new: LockHolder| {
@@ -156,12 +159,12 @@ pub(super) async fn holders(folders: &LockFolders, lock: &str) -> Vec<LockHolder
 }
 
 impl LockHolder {
-    /// Its name of the antenna, where it holds a unit.
+    /// Returns the holder's name for the antenna; `None` if it holds no unit.
     pub(super) fn antenna(&self) -> Option<&str> {
         self.holder.as_ref()?.antenna.as_deref()
     }
 
-    /// Sends `ask`; a STOP goes as a signal where the socket does not take it.
+    /// Sends `ask`. If the socket fails, a STOP goes as a signal.
     pub(super) async fn deliver(&self, ask: &Ask) -> Delivered {
         let socket = self.holder.as_ref().and_then(|holder| holder.socket.as_deref());
         let sent = match socket {
@@ -186,14 +189,14 @@ impl LockHolder {
         }
     }
 
-    /// Sends the signal that means STOP, if the process certainly holds the lock.
+    /// Sends the STOP signal, but only to a process that certainly holds the lock.
     #[cfg(target_os = "linux")]
     async fn signal(&self) -> io::Result<()> {
         use rustix::process::{Pid, PidfdFlags, Signal, pidfd_open, pidfd_send_signal};
         let process = self.process.and_then(|process| i32::try_from(process).ok());
         let process = process.and_then(Pid::from_raw);
         let process = process.ok_or_else(|| io::Error::other("its process is not known"))?;
-        // From now on the number of the process cannot be mistaken for that of a later one.
+        // From here on, the handle identifies this process even if a later one gets its number.
         let handle = pidfd_open(process, PidfdFlags::empty())?;
         let number = process.as_raw_nonzero().get().unsigned_abs();
         let holds_it = match &self.evidence {
@@ -203,14 +206,14 @@ impl LockHolder {
         if !holds_it {
             return Err(io::Error::other("it is not certain which process holds the lock"));
         }
-        // A process that does not handle the signal would be ended by it.
+        // The signal would end a process that does not handle it.
         if !linux::handles_stop(number)? {
             return Err(io::Error::other("the process takes no signals yet"));
         }
         Ok(pidfd_send_signal(handle, Signal::USR1)?)
     }
 
-    /// Other systems do not tell which process has locked a file.
+    /// Returns an error: other systems do not report which process has locked a file.
     #[cfg(not(target_os = "linux"))]
     #[allow(clippy::unused_async, reason = "Linux waits here")]
     async fn signal(&self) -> io::Result<()> {
@@ -219,7 +222,7 @@ impl LockHolder {
     }
 }
 
-/// Waits for the answer to what was delivered.
+/// Waits for the answer to a sent request.
 pub(super) async fn outcome(holder: Option<LockHolder>, ask: Ask, delivered: Delivered) -> Reached {
     let outcome = match delivered {
         Delivered::Over(outcome) => outcome,
@@ -234,7 +237,7 @@ pub(super) async fn outcome(holder: Option<LockHolder>, ask: Ask, delivered: Del
 
 #[cfg(target_os = "linux")]
 mod linux {
-    //! Answers of the system about processes.
+    //! Facts about processes, from Linux.
 
     use std::{fs, io, os::unix::fs::MetadataExt as _, path::Path};
 
@@ -245,19 +248,19 @@ mod linux {
         engine::claim::lock::{holder_of, machine},
     };
 
-    /// Number of looks at the list of locks: it lacks a line now and then while other processes lock
-    /// files.
+    /// Max number of readings of the list of locks: a reading may lack a line while other processes
+    /// lock files.
     const LOOKS: u32 = 10;
-    /// Bit of SIGUSR1 in a set of signals.
+    /// Bit of SIGUSR1 in a signal mask.
     const STOP: u64 = 1 << (nix::libc::SIGUSR1 - 1);
 
-    /// The process that listens at the name of `lock`: `None` without one, `Some(None)` for one
-    /// that the system does not tell.
+    /// Returns the process that listens at the name of `lock`. `None` means no process,
+    /// `Some(None)` a process of unknown number.
     pub(super) async fn listener(lock: &str) -> Option<Option<u32>> {
         match UnixStream::connect(format!("\0{}", machine::address(lock))).await {
             Ok(stream) => {
                 let process = stream.peer_cred().ok().and_then(|peer| peer.pid());
-                // Zero is a process of another container.
+                // Zero means a process in another container.
                 Some(
                     process
                         .and_then(|process| u32::try_from(process).ok())
@@ -269,7 +272,7 @@ mod linux {
         }
     }
 
-    /// Returns `true` if `process` has locked the file at `path` and has written its number there.
+    /// Returns `true` if `process` has locked the file at `path` and written its number there.
     pub(super) fn has_locked(path: &Path, process: u32) -> io::Result<bool> {
         let holder = match holder_of(path) {
             Some(HeldBy::Azel(Some(holder))) => holder,
@@ -288,8 +291,8 @@ mod linux {
         Ok(false)
     }
 
-    /// Returns `true` if a line of `/proc/locks` says that `process` has a lock of its own on the
-    /// file with this inode. Some file systems show another device than the file has.
+    /// Returns `true` if a line of `/proc/locks` shows a lock of `process` on the file with this
+    /// inode. The device is ignored: some file systems show another one than the file has.
     pub(super) fn is_lock(line: &str, process: u32, inode: u64) -> bool {
         let words: Vec<&str> = line.split_whitespace().collect();
         let [_, "FLOCK", _, "WRITE", name, file, ..] = words.as_slice() else { return false };
@@ -297,12 +300,12 @@ mod linux {
             && file.rsplit(':').next().and_then(|last| last.parse().ok()) == Some(inode)
     }
 
-    /// Returns `true` if the process has a handler for the signal that means STOP.
+    /// Returns `true` if the process has a handler for the STOP signal.
     pub(super) fn handles_stop(process: u32) -> io::Result<bool> {
         Ok(handles(&fs::read_to_string(format!("/proc/{process}/status"))?))
     }
 
-    /// The same from the status of a process.
+    /// Returns `true` if the status text of a process shows a handler for the STOP signal.
     pub(super) fn handles(status: &str) -> bool {
         let handled = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
         let handled = handled.and_then(|set| u64::from_str_radix(set.trim(), 16).ok());
@@ -323,7 +326,8 @@ mod tests {
 
     const LOCK: &str = "station-0";
 
-    /// The lock of an older version: a file alone, locked by this process, that names `process`.
+    /// Creates a lock like an older version: one file, locked by this process, that names
+    /// `process`.
     fn older_lock(folder: &std::path::Path, process: u32) -> File {
         let holder = Holder {
             kind: HolderKind::Serve,

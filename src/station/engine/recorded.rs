@@ -1,4 +1,4 @@
-//! Passes that a client looks back at, read from the file of the record.
+//! Recorded passes that a client looks at, read from the record file.
 
 use std::{path::Path, sync::Arc, time::Duration};
 
@@ -16,42 +16,43 @@ use crate::{
     record::{self, MissedEntry, RecordError},
 };
 
-/// Time from the end of the work on a report until it can be read from the file.
+/// Time from the completion of a report until the file contains it.
 const UNTIL_WRITTEN: Duration = Duration::from_secs(1);
 
-/// `None` where the entry has another form, as an older program wrote it.
+/// Converts an entry; `None` if an older program wrote it in another form.
 fn missed_pass(entry: MissedEntry) -> Option<MissedPass> {
     let MissedEntry { id, time, antenna, antenna_name, flown } = entry;
     let flown = serde_json::from_value(flown).ok()?;
     Some(MissedPass { id, time, antenna, antenna_name, flown })
 }
 
-/// Reads the record at `path`. Reports without a site are of an antenna at `site`.
+/// Reads the record at `path`. Reports without a site belong to an antenna at `site`.
 pub fn read_record(path: &Path, look: RecordLook, site: Site) -> Recorded {
     let found = read(path, &look, site).map_err(|error| error.to_string());
     Recorded { look, found, combined: None }
 }
 
-/// Returns `true` if the same pass is opened and the record has as many passes, so that what
-/// explains them together is the same.
+/// Returns `true` if both have the same opened pass and the same number of passes. Their combined
+/// explanation is then the same.
 fn have_same_passes(one: &Recorded, other: &Recorded) -> bool {
     let passes = |recorded: &Recorded| recorded.found.as_ref().ok().map(|found| found.page.all);
     one.look.opened == other.look.opened && passes(one) == passes(other)
 }
 
-/// The reading of a record.
+/// Reading of a record for a client.
 #[derive(Default)]
 pub(super) struct RecordReading {
     pub(super) found: Option<Arc<Recorded>>,
     record_look: Option<RecordLook>,
     job: Option<Job<Recorded>>,
     explaining: Option<Job<Option<ExplainedPasses>>>,
-    /// When a new pass will be in the file.
+    /// Time at which the file contains a new pass.
     due: Option<Instant>,
 }
 
 impl Engine {
-    /// Publishes what the record holds of `look`, and keeps it up to date; nothing for `None`.
+    /// Publishes the part of the record that `look` selects, and keeps it up to date. `None`
+    /// publishes nothing.
     pub(super) fn look_at_record(&mut self, look: Option<RecordLook>) {
         if look.is_none() {
             self.record_reading.found = None;
@@ -60,7 +61,7 @@ impl Engine {
         self.read_record();
     }
 
-    /// A pass more, or one that was not tracked, is on its way into the record, or another record is in use.
+    /// Schedules another read, because the record gets a new pass or another record is in use.
     pub(super) fn record_has_grown(&mut self) {
         self.record_reading.due = Some(self.steady + UNTIL_WRITTEN);
     }
@@ -110,7 +111,7 @@ impl Engine {
         let Some(opened) = found.and_then(|found| found.opened.as_ref()) else { return };
         let (antenna, end) = (opened.pass.antenna, opened.pass.report.end);
         let configured = self.station.antennas.iter().find(|one| one.id == antenna);
-        // An antenna that has left the station has no known mount.
+        // Azel does not know the mount of an antenna that has left the station.
         let (Some(config), Some(path)) = (configured, self.record_file()) else { return };
         let (mount, site) = (config.mount, self.station.site);
         let job = Job::start("azel-explain-passes", Arc::clone(&self.wake), move |_| {

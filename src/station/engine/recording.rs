@@ -1,5 +1,5 @@
-//! Entries that the station hands to its record: the commands that it received, and its changes
-//! since the last turn. Lines and positions go there from the sessions' own logs.
+//! Entries that the station writes to its record: commands that it received, and changes since the
+//! last turn. The sessions' logs supply the wire lines and positions.
 
 mod differences;
 mod explain;
@@ -48,15 +48,15 @@ use crate::{
     station::{self, AntennaId, Station},
 };
 
-/// A step of UTC against the steady clock from which the clock counts as set, seconds.
+/// Min step of UTC against the steady clock that counts as setting the clock, seconds.
 const CLOCK_SET_S: f64 = 0.05;
 /// Name of the demo station's record.
 const DEMO: &str = "demo.sqlite";
 
-/// The record of a station, and what of the station it holds already.
+/// Record of a station, and the state that it already contains.
 #[derive(Default)]
 pub(super) struct Recording {
-    /// Folder of all records; `None` to keep none.
+    /// Folder of all records; `None` if Azel keeps no records.
     folder: Option<PathBuf>,
     /// Channel for reports of passes, besides the record.
     taker: Option<mpsc::Sender<PassNote>>,
@@ -64,41 +64,41 @@ pub(super) struct Recording {
     status: Option<Arc<Status>>,
     station: Value,
     states: BTreeMap<AntennaId, State>,
-    /// The last write to each group of settings.
+    /// Last write to each group of settings.
     written: BTreeMap<(AntennaId, &'static str), Timestamp>,
     alarms: Vec<Alarm>,
-    /// The schedule that was recorded last.
+    /// Last recorded schedule.
     schedule: Arc<Planned>,
-    /// The clocks of the last turn, and how long the computer had slept by then.
+    /// Clocks at the last turn, with the computer's total sleep time.
     clock: Option<(Moment, Duration, TimeSync)>,
-    /// The antenna that a held key turns, and when that was last heard of.
+    /// Antenna that a held key turns, and the time of the last renewal.
     jog: Option<(AntennaId, Instant)>,
-    /// The satellite that each antenna has the command to track, and since when.
+    /// Satellite that each antenna was commanded to track, and the start of that command.
     commanded: BTreeMap<AntennaId, (u32, Timestamp)>,
-    /// Passes that are tracked, and the reports that are worked on.
+    /// Tracked passes, and passes whose report is in progress.
     followed: Vec<Followed>,
-    /// Passes that are reported before their LOS, because they were over for their antenna.
+    /// Passes reported before their LOS because the antenna had already finished them.
     announced: Vec<(AntennaId, u32, Timestamp)>,
-    /// Tracks of no pass, with the time of the last search for one.
+    /// Tracks without a known pass, with the time of the last search.
     lookups: Vec<((AntennaId, u32), Timestamp)>,
     reports: Vec<Option<Job<Finished>>>,
-    /// The second in which tracks were last looked at.
+    /// Second in which tracks were last checked.
     looked_at: i64,
 }
 
-/// The record of the station file at `station`, in the folder of all records.
+/// Returns the path of a station file's record in the folder of all records.
 pub fn record_path(folder: &Path, station: &Path) -> PathBuf {
     let path = whole_path(station);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     folder.join(format!("{}.sqlite", digest(&stem, path.to_string_lossy().as_bytes())))
 }
 
-/// The record of the demo station, in the folder of all records.
+/// Returns the path of the demo station's record in the folder of all records.
 pub fn demo_record_path(folder: &Path) -> PathBuf {
     folder.join(DEMO)
 }
 
-/// Folder of this user's records; `None` on a machine without a home.
+/// Returns the folder of this user's records; `None` on a machine without a home folder.
 pub fn records_folder() -> Option<PathBuf> {
     let dirs = directories::ProjectDirs::from("", "", "azel")?;
     Some(dirs.data_dir().join("records"))
@@ -109,12 +109,12 @@ impl Recording {
         Self { folder, taker, ..Self::default() }
     }
 
-    /// Returns `true` if somebody wants reports of passes.
+    /// Returns `true` if a record or a channel takes reports of passes.
     fn wants_reports(&self) -> bool {
         self.recorder.is_some() || self.taker.is_some()
     }
 
-    /// Passes on the report of a pass.
+    /// Sends the report of a pass to the channel and to the record.
     fn tell_pass(&self, note: PassNote) {
         if let Some(taker) = &self.taker
             && taker.try_send(note.clone()).is_err()
@@ -130,7 +130,7 @@ impl Recording {
         self.status.clone()
     }
 
-    /// Records the session that begins for an antenna.
+    /// Records a new session of an antenna.
     pub(super) fn follow(&self, config: &station::Antenna, handle: &AntennaHandle, moment: Moment) {
         let Some((_, recorder)) = &self.recorder else { return };
         recorder.follow(RecordedSession {
@@ -156,7 +156,7 @@ impl Recording {
         }
     }
 
-    /// Films what is published.
+    /// Adds a published snapshot to the film.
     pub(super) fn film(&self, snapshot: &Arc<Snapshot>) {
         if let Some((_, recorder)) = &self.recorder {
             recorder.film(snapshot.clone());
@@ -175,7 +175,7 @@ impl Recording {
         }
     }
 
-    /// Records into the file at `path`, from its beginning.
+    /// Starts recording into the file at `path`, with no recorded state yet.
     fn begin(&mut self, path: PathBuf, clock: &Clock, keeping: station::Retention) {
         match Recorder::start(path.clone(), clock.clone(), keeping) {
             Ok(recorder) => {
@@ -189,7 +189,7 @@ impl Recording {
 }
 
 impl Engine {
-    /// The record of the station in use, whoever writes it.
+    /// Returns the path of the current station's record, even if another Azel writes it.
     pub(super) fn record_file(&self) -> Option<PathBuf> {
         let folder = self.recording.folder.as_deref();
         folder.zip(self.settings_path.as_deref()).map(|(folder, path)| match self.demo {
@@ -198,9 +198,9 @@ impl Engine {
         })
     }
 
-    /// Records into the file of the station that comes into use, and what is new in it.
+    /// Records into the file of a station that comes into use, and records changes of the station.
     pub(super) fn record_station(&mut self, station: &Station) {
-        // Another Azel that drives the station records it itself.
+        // Another Azel that drives the station records it.
         let path = self
             .record_file()
             .filter(|_| !matches!(self.station_claim, super::StationClaim::Theirs(_)));
@@ -232,7 +232,7 @@ impl Engine {
         }
     }
 
-    /// Records a command of a client. A held jog key counts once.
+    /// Records a command of a client. A held jog key counts as one command.
     pub(super) fn note_command(&mut self, command: &Command, origin: CommandOrigin) {
         match command {
             command if command.only_looks() => return,
@@ -253,8 +253,8 @@ impl Engine {
         self.recording.note(moment, command.antenna(), Kind::Command, &data);
     }
 
-    /// Records a command that goes to a session. A client's command was recorded when it came,
-    /// unless the client named only a pass.
+    /// Records a command to a session. Client commands are already recorded, except that tracks are
+    /// recorded again with the target instead of only the pass.
     pub(super) fn note_sent(&self, index: usize, command: &contract::driver::Command) {
         use crate::contract::driver::Command::{ProgramTrack, ProgramTrackIntoSun, Track};
         let origin = self
@@ -269,7 +269,7 @@ impl Engine {
         self.recording.note(self.clock.now(), Some(id), Kind::Command, &data);
     }
 
-    /// Returns `false` where nothing is recorded.
+    /// Records a change of the peaks; returns `false` if there is no record.
     pub(super) fn note_peak(&self, antenna: AntennaId, change: PeakChange) -> bool {
         self.recording.note(self.clock.now(), Some(antenna), Kind::Peak, &change);
         self.recording.recorder.is_some()
@@ -292,7 +292,7 @@ impl Engine {
         self.recording.note(moment, None, Kind::Stop, &data);
     }
 
-    /// Records what this turn has changed, and watches over the record.
+    /// Records the changes of this turn, and checks the record's state.
     pub(super) fn record_turn(&mut self) {
         self.report_passes();
         let Some((_, recorder)) = &self.recording.recorder else {
@@ -349,7 +349,7 @@ impl Engine {
 
     fn note_alarms(&mut self, moment: Moment) {
         let list = self.alarms.list();
-        // How long something stands grows with every turn.
+        // Leave out the duration: it grows with every turn.
         let story = |alarm: &Alarm| {
             (alarm.id, alarm.acknowledged, alarm.over_since, alarm.shelved_until, alarm.count)
         };
@@ -383,7 +383,8 @@ fn note_antenna(recording: &mut Recording, antenna: &Antenna, moment: Moment) {
     }
 }
 
-/// Why a pass ends with this event: what the driver found and stopped the antenna for.
+/// Returns the cause of a pass's end for an event: a fault for which the driver stopped the
+/// antenna.
 fn ended_by(event: &Event) -> Option<LossCause> {
     let Event::Safety(found) = event else { return None };
     match found {

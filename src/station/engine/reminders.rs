@@ -1,4 +1,4 @@
-//! Reminders of the passes of marked favourites, and an alarm where no antenna takes such a pass.
+//! Reminders of marked favourites' passes, and an alarm if no antenna takes such a pass.
 
 use std::time::Duration;
 
@@ -17,13 +17,13 @@ use crate::{
     station::Station,
 };
 
-/// Time before AOS at which an antenna should be on its way.
+/// Min time before AOS at which an antenna should be on its way.
 const ON_ITS_WAY: Duration = Duration::from_secs(30);
 
 impl Engine {
-    /// Brings the reminders and their alarms up to date.
+    /// Updates the reminders and their alarms.
     pub(super) fn remind(&mut self) {
-        // Another Azel that has this station reminds.
+        // The Azel that holds this station shows the reminders.
         if matches!(self.station_claim, StationClaim::Theirs(_)) {
             self.reminders.clear();
         } else {
@@ -35,7 +35,7 @@ impl Engine {
     }
 }
 
-/// Adds the reminders that are due, and drops those of passes that are over.
+/// Adds due reminders, and drops reminders of passes that are over.
 fn refresh(reminders: &mut Vec<Reminder>, station: &Station, passes: &PassList, now: Timestamp) {
     let notices = &station.notices;
     let is_marked =
@@ -49,7 +49,7 @@ fn refresh(reminders: &mut Vec<Reminder>, station: &Station, passes: &PassList, 
     for predicted in ahead.iter().take_while(|predicted| is_near(predicted.pass.aos.time)) {
         let (number, aos) = predicted.key();
         let is_due = now < aos;
-        // A new list may have the pass at a slightly different time.
+        // A new list may predict the pass at a slightly different time.
         let is_it = |reminder: &Reminder| reminder.pass.0 == number && aos < reminder.los;
         if is_due && is_marked(number) && !reminders.iter().any(is_it) {
             reminders.push(reminder(predicted, station));
@@ -71,8 +71,8 @@ fn reminder(predicted: &PredictedPass, station: &Station) -> Reminder {
     }
 }
 
-/// Raises an alarm shortly before AOS while no antenna takes the pass. It lasts until one does, or
-/// until LOS.
+/// Raises an alarm shortly before AOS while no antenna takes the pass. The alarm lasts until an
+/// antenna takes the pass, or until LOS.
 fn watch(alarms: &mut Alarms, reminders: &[Reminder], takes: impl Fn(u32) -> bool, now: Timestamp) {
     alarms.clear(None, now, |kind| match kind {
         AlarmKind::NoAntennaFor { pass, .. } => {
@@ -112,7 +112,7 @@ mod tests {
 
     const ISS: u32 = 25_544;
 
-    /// The demo station with a mark at the ISS, and the passes of half a day.
+    /// Returns the demo station with a mark at the ISS, and the passes of half a day.
     fn desk() -> (Station, PassList) {
         let notices = Notices { reminders: [ISS].into(), ..Notices::default() };
         let station = Station { notices, ..Station::demo(&DemoAddresses::default()) };
@@ -180,7 +180,7 @@ mod tests {
         assert_eq!(standing(aos - 31.seconds(), false), 0);
         assert_eq!(standing(aos - 30.seconds(), false), 1);
         assert_eq!(standing(aos - 20.seconds(), true), 0);
-        // Given up again before it began.
+        // The antenna drops the pass before its start.
         assert_eq!(standing(aos - 10.seconds(), false), 1);
         assert_eq!(standing(aos + 1.minute(), false), 1);
         assert_eq!(standing(aos + 2.minutes(), true), 0);

@@ -1,4 +1,4 @@
-//! The schedule of the station: made on a thread whenever something it depends on has changed.
+//! Schedule of the station: a thread makes a new one whenever its inputs change.
 
 use std::sync::Arc;
 
@@ -24,13 +24,13 @@ use crate::{
     station::{AntennaId, Station, Take},
 };
 
-/// Gain that a change of the schedule must bring: a moved minute does not turn it over.
+/// Min gain of a schedule change, so that a shift of a minute does not change the schedule.
 const STEADINESS: Steadiness = Steadiness { percent: 3, seconds: 10 };
 
-/// An entry whose end moves by less is the same, seconds.
+/// Max difference in the end of two equal entries, seconds.
 const MOVED_S: f64 = 1.0;
 
-/// Inputs from which a schedule follows, besides the time.
+/// Inputs of a schedule, besides the time.
 #[derive(Clone)]
 pub(super) struct Inputs {
     station: Arc<Station>,
@@ -43,7 +43,7 @@ pub(super) struct Inputs {
     tracked: Vec<Tracked>,
     /// Passes that antennas were taking before the start of this run and may resume.
     interrupted: Vec<(AntennaId, PassListKey)>,
-    /// Antennas with known positions, with the rates of their axes as learned.
+    /// Antennas with known positions, with their learned axis rates in degrees per second.
     placed: Vec<(AntennaId, Option<[f64; 2]>)>,
 }
 
@@ -51,7 +51,7 @@ pub(super) struct Inputs {
 struct Tracked {
     antenna: AntennaId,
     satellite: u32,
-    /// Begin of the pass that its unit was asked for.
+    /// Start of the pass that the unit was commanded to track.
     start: Option<Timestamp>,
 }
 
@@ -66,15 +66,15 @@ impl PartialEq for Inputs {
     }
 }
 
-/// The schedule that is made, or was made last.
+/// Current or last run of the scheduler.
 struct Begun {
     inputs: Inputs,
     time: Timestamp,
-    /// The entries that it keeps.
+    /// Entries that the schedule must keep.
     fixed: Vec<Entry>,
 }
 
-/// Makes schedules, one at a time.
+/// Scheduler that makes one schedule at a time.
 #[derive(Default)]
 pub(super) struct Scheduler {
     running: Option<Job<Schedule>>,
@@ -88,14 +88,14 @@ impl Scheduler {
         self.swap.clone()
     }
 
-    /// A schedule is being made.
+    /// Returns `true` while a schedule is being made.
     pub(super) fn is_at_work(&self) -> bool {
         self.running.is_some()
     }
 }
 
 impl Engine {
-    /// Takes a finished schedule, and begins a new one where something has changed.
+    /// Adopts a finished schedule, and starts a new one if the inputs have changed.
     pub(super) fn look_after_schedule(&mut self) {
         self.take_schedule();
         if self.scheduler.running.is_some() {
@@ -116,7 +116,7 @@ impl Engine {
         self.scheduler.begun = Some(Begun { inputs, time: now, fixed });
     }
 
-    /// Returns the inputs from which a schedule follows now; `None` before the passes are known.
+    /// Returns the current inputs of a schedule; `None` before the passes are known.
     fn schedule_inputs(&self) -> Option<Inputs> {
         let list = &self.pass_lists.favourites;
         list.made_at?;
@@ -132,8 +132,8 @@ impl Engine {
         let tracked = self.antennas.iter().filter_map(|antenna| {
             let shown = &antenna.shown;
             let satellite = shown.tracked_number().filter(|number| shown.takes(*number))?;
-            // A pass that automatic operation takes is fixed from the start, and one that it has
-            // ended is not.
+            // Automatic operation's current pass is a fixed entry, and a pass that it has ended is
+            // not tracked.
             let is_by_hand = !shown.operation.is_on() || shown.tracks_unasked();
             let target = shown.snapshot.target.as_ref();
             let target = target.filter(|target| target.catalog_number == satellite);
@@ -154,10 +154,10 @@ impl Engine {
         })
     }
 
-    /// Begins to work out what it would cost to take a pass always: the schedule is made as it would
-    /// be made after that choice.
+    /// Starts computing the cost of always taking a pass: makes the schedule that would follow from
+    /// that choice.
     pub(super) fn price_swap(&mut self, pass: PassListKey) {
-        // Not those of the last schedule: an antenna may have begun to track since.
+        // Do not use the last schedule's inputs: an antenna may have begun to track since.
         let Some(mut inputs) = self.schedule_inputs() else { return };
         let mut listed = inputs.passes.iter();
         let Some(tca) = listed
@@ -195,7 +195,7 @@ impl Engine {
         let begun =
             self.scheduler.begun.take_if(|begun| gives_away(&schedule, &begun.fixed, &fixed));
         if begun.is_some() {
-            // Plan again, with the passes that have begun since.
+            // Make a new schedule that keeps the passes begun since.
             return;
         }
         let before = &self.schedule;
@@ -230,7 +230,8 @@ impl Engine {
         self.antennas.iter().map(planned).collect()
     }
 
-    /// Passes that automatic operation was taking when the last run ended, of antennas that do not move.
+    /// Returns the passes that automatic operation was taking when the last run ended, except
+    /// passes being tracked now.
     fn interrupted_passes(&self) -> Vec<(AntennaId, PassListKey)> {
         let own = self.antennas.iter().filter_map(|antenna| {
             let pass = antenna.at_work.interrupted(&antenna.shown.operation)?;
@@ -241,8 +242,8 @@ impl Engine {
         own.collect()
     }
 
-    /// The entries that a new schedule must keep: those that automatic operation is
-    /// taking, from the moment it asks the unit.
+    /// Returns the entries that a new schedule must keep: the ones that automatic operation takes,
+    /// from its first command to the unit.
     fn fixed(&self) -> Vec<Entry> {
         let entries = self.schedule.schedule.entries.iter();
         let is_taken = |entry: &&Entry| {
@@ -256,15 +257,15 @@ impl Engine {
     }
 }
 
-/// Angles at which an antenna stands, as far as a schedule needs them; `None` before they are known.
+/// Returns the axis angles of an antenna for the schedule, degrees; `None` before they are known.
 fn stands_deg(shown: &AntennaModel) -> Option<[f64; 2]> {
     let has_elevation = shown.variant().capabilities.has_elevation();
     let measured = shown.snapshot.state.measured?;
     measured.planned_axes_deg(shown.config.mount.travel_deg(), has_elevation)
 }
 
-/// Returns `true` if `schedule` takes an entry from an antenna that has begun to take it since the
-/// schedule was `begun`.
+/// Returns `true` if `schedule` drops an entry that its antenna has begun to take since the
+/// schedule's start. `begun` has the entries fixed then, `fixed` the current ones.
 fn gives_away(schedule: &Schedule, begun: &[Entry], fixed: &[Entry]) -> bool {
     let is_in = |entries: &[Entry], entry: &Entry| {
         entries.iter().any(|other| {
@@ -315,12 +316,12 @@ fn make(
         let pass = ahead.min_by_key(|candidate| candidate.key.aos)?;
         pass.under_way(antenna, scheduling.choose_by, now)
     });
-    // In parts, the schedule takes what is left of a pass by its own rules.
+    // Schedules with partial passes handle the rest of a begun pass by their own rules.
     let is_whole = scheduling.partly.is_none();
     let interrupted = inputs.interrupted.iter().filter(|_| is_whole);
     let resumed = interrupted.filter_map(|(id, pass)| {
         let antenna = antennas.iter().find(|antenna| antenna.id == *id)?;
-        // The first motion after a start is announced.
+        // Azel announces the first motion after a start.
         let free_from = add_seconds(now, scheduling.warning_s);
         let antenna = PlannedAntenna { free_from, ..antenna.clone() };
         let key = |candidate: &&Candidate| {

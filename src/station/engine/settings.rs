@@ -1,4 +1,4 @@
-//! Settings with which a station is started.
+//! Settings that start a station.
 
 use std::{
     path::{Path, PathBuf},
@@ -25,7 +25,7 @@ pub struct Settings {
     pub marks: Option<PathBuf>,
     /// Folder for the records of stations; `None` to record nothing.
     pub records: Option<PathBuf>,
-    /// Elements in place of those of the sources; Azel then reads no source.
+    /// Elements that replace the sources' elements; Azel then reads no source.
     pub elements: Option<Arc<Catalog>>,
     /// Channel for reports of passes, besides the record.
     pub reports: Option<mpsc::Sender<PassNote>>,
@@ -35,12 +35,12 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Path of the station file, if this user has a place for one.
+    /// Returns the path of the station file, if this user has a place for one.
     pub fn station_path(&self) -> Option<PathBuf> {
         self.path.clone().or_else(station::settings_path)
     }
 
-    /// Folder for elements from servers, if this user has a place for it.
+    /// Returns the folder for elements from servers, if this user has a place for it.
     pub fn library_path(&self) -> Option<PathBuf> {
         let station = self.station_path();
         let places = Places::new(station.as_deref(), self.library.clone());

@@ -5,14 +5,14 @@ use std::{io, thread};
 use super::Stopped;
 use crate::driver;
 
-/// Watches for signals on a thread of its own: USR1 calls `stop`, which is STOP for all antennas,
-/// and the first signal to end the program calls `end`.
+/// Watches for signals on its own thread. USR1 calls `stop`, which is STOP for all antennas; the
+/// first signal to end the program calls `end`.
 pub fn watch(
     stop: impl Fn() -> Stopped + Send + 'static,
     end: impl FnOnce() + Send + 'static,
 ) -> io::Result<()> {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_io().build()?;
-    // STOP is heard until the process has ended.
+    // Azel handles STOP until the process has ended.
     let watch = async move { tokio::join!(end_on_signal(end), stop_on_signal(stop)) };
     thread::Builder::new().name("azel-signals".to_owned()).spawn(move || {
         runtime.block_on(watch);

@@ -1,6 +1,6 @@
-//! The socket of a station, by which other programs of the same user stop its antennas,
-//! lock them out and ask for their status. Members of a group that the socket is open to may stop
-//! antennas and ask for their status. A question is one line of JSON, and so is its answer.
+//! Socket of a station for other programs. Programs of the same user can stop antennas, lock them
+//! out and ask for their status. Members of the socket's group can stop antennas and ask for their
+//! status. A request is one line of JSON, and so is its answer.
 
 use std::{
     io,
@@ -29,87 +29,86 @@ use crate::{
     station::{AntennaId, LockOut},
 };
 
-/// Maximum length of a question, bytes.
+/// Max length of a request, bytes.
 const MAX_BYTES: u64 = 64 * 1024;
-/// Time for a client to send its question.
+/// Timeout for a client to send its request.
 const ASKS_WITHIN: Duration = Duration::from_secs(5);
-/// Time in which a session reports whether a STOP is proved, even for a unit that may sway.
+/// Timeout for a session to report proof of a STOP, even for a unit that may sway.
 const PROVED_WITHIN: Duration = Duration::from_secs(12);
-/// Time for a lock-out: the unit is stopped and its own program switched off first.
+/// Timeout for a lock-out: Azel first stops the unit and switches its own program off.
 const LOCKED_WITHIN: Duration = Duration::from_secs(15);
-/// Interval at which a station looks whether its socket is still in its place.
+/// Interval between checks that the socket file is still in its place.
 const REPAIRED_WITHIN: Duration = Duration::from_millis(500);
 
-/// A question.
+/// Request to a station.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ask {
-    /// Stop one antenna, or all that are connected or were moved.
+    /// STOP for one antenna, or for all that are connected or were moved.
     Stop {
         /// Name of the antenna; `None` for all.
         antenna: Option<String>,
     },
-    /// Report the status of all antennas.
+    /// Status of all antennas.
     Status,
-    /// Switch automatic operation of an antenna on or off.
+    /// Automatic operation of an antenna, on or off.
     Automatic {
         /// Name of the antenna.
         antenna: String,
         is_on: bool,
     },
-    /// Lock out an antenna, or remove its lock-out.
+    /// Lock-out of an antenna, or its removal.
     LockOut {
         /// Name of the antenna.
         antenna: String,
         /// Holder and reason of the lock-out; `None` to remove it.
         lock_out: Option<LockOut>,
-        /// To remove it: who locked it out. This prevents removing a lock-out that somebody else has
-        /// set in the meantime.
+        /// Previous holder, for a removal. Azel then does not remove a newer lock-out of somebody
+        /// else.
         #[serde(default)]
         locked_by: Option<String>,
     },
 }
 
-/// An answer.
+/// Answer to a request.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Answer {
-    /// Antennas that STOP went to, with the proof of their standstill.
+    /// Antennas that received STOP, with the proof of their standstill.
     Stopped(Vec<Stopped>),
     Status(Vec<AntennaStatus>),
-    /// Automatic operation is switched on or off.
+    /// Automatic operation was switched on or off.
     Automatic {
-        /// The link stays off until the operator connects.
+        /// `true` if the link stays off until the operator connects.
         waits_for_connect: bool,
     },
-    /// The lock-out is set or removed. `proved`: the antenna stands and will not start by
-    /// itself.
+    /// The lock-out was set or removed.
     LockOut {
-        /// Read back from the unit.
+        /// `true` if the unit confirmed that it stands and will not start on its own.
         proved: bool,
-        /// Why the next start would not know of it.
+        /// Reason why the next start would not know the lock-out.
         #[serde(default)]
         not_on_disk: Option<String>,
     },
-    /// The question cannot be carried out, for this reason.
+    /// Reason why Azel cannot carry out the request.
     Refused(String),
 }
 
-/// A STOP that went to an antenna.
+/// STOP that went to an antenna.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Stopped {
     /// Name of the antenna.
     pub antenna: String,
-    /// The unit has reported standstill since.
+    /// `true` if the unit has since reported standstill.
     pub proved: bool,
-    /// Why the next start would not send it, although it is not proved.
+    /// Reason why the next start would not send the unproved STOP again.
     #[serde(default)]
     pub not_on_disk: Option<String>,
 }
 
-/// A question that was sent.
+/// Connection with a sent request.
 pub(super) struct Connection {
-    /// Process behind the socket, where the system tells it.
+    /// Process behind the socket, if the system reports it.
     pub(super) process: Option<u32>,
     stream: UnixStream,
 }
@@ -136,7 +135,7 @@ impl Connection {
     }
 }
 
-/// The socket of a station. It is closed when the drop of this returns.
+/// Socket of a station. Dropping `Served` closes the socket before it returns.
 pub(super) struct Served {
     close: Option<oneshot::Sender<()>>,
     thread: Option<JoinHandle<()>>,
@@ -153,7 +152,7 @@ impl Drop for Served {
     }
 }
 
-/// Serves the socket called `name` in `folder` on a thread of its own until the station ends.
+/// Serves the socket called `name` in `folder` on its own thread until the station ends.
 pub(super) fn serve(folder: LockFolder, name: PathBuf, station: Client) -> io::Result<Served> {
     let station = station.acting_for(CommandOrigin::Program);
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
@@ -168,20 +167,20 @@ pub(super) fn serve(folder: LockFolder, name: PathBuf, station: Client) -> io::R
     Ok(Served { close: Some(close), thread: Some(thread) })
 }
 
-/// A listening socket and its place in the file system.
+/// Listening socket and its place in the file system.
 struct Door {
     folder: LockFolder,
     path: PathBuf,
     listener: UnixListener,
     /// Device and inode of the socket.
     file: (u64, u64),
-    /// A loss that cannot be repaired was logged.
+    /// `true` once Azel has logged a loss that it cannot repair.
     is_loss_told: bool,
 }
 
 impl Door {
-    /// Binds the socket in a folder that is closed to others, and moves it to its place when its
-    /// mode is set: at no time is it open wider.
+    /// Binds the socket in a private folder, sets its mode, and then moves it to its place. The
+    /// socket is never open wider than that mode.
     fn open(folder: LockFolder, path: PathBuf) -> io::Result<Self> {
         folder.make()?;
         let closed = std::fs::Permissions::from_mode(0o700);
@@ -195,7 +194,7 @@ impl Door {
         }
         std::fs::set_permissions(&made, std::fs::Permissions::from_mode(mode))?;
         if path.is_dir() {
-            // A folder gives way only if it is empty.
+            // `remove_dir` removes only an empty folder.
             std::fs::remove_dir(&path)?;
         }
         std::fs::rename(&made, &path)?;
@@ -203,7 +202,7 @@ impl Door {
         Ok(Self { folder, path, listener, file, is_loss_told: false })
     }
 
-    /// Makes the socket again if it was removed or replaced, other than by one on which another
+    /// Recreates the socket if it was removed or replaced. Keeps a replacement on which another
     /// process listens.
     async fn repair(&mut self) {
         if file_id(&self.path).is_ok_and(|file| file == self.file)
@@ -264,8 +263,8 @@ async fn accept(mut door: Door, mut station: Client, closed: oneshot::Receiver<(
     }
 }
 
-/// Returns `true` if a process of `user` may ask this of a station that runs as user `own`. The
-/// system lets other users than `own` and root in by their group only.
+/// Returns `true` if a process of `user` may send this request to a station of user `own`. The
+/// socket's mode admits only `own`, root and members of the group.
 fn may_ask(user: u32, own: u32, ask: &Ask) -> bool {
     match ask {
         Ask::Stop { .. } | Ask::Status => true,
@@ -339,7 +338,8 @@ async fn stop(antenna: Option<&str>, mut station: Client) -> Answer {
     let antenna = |id| snapshot.antennas.iter().find(|antenna| antenna.id() == id);
     let name = |id| antenna(id).map_or_else(String::new, |antenna| antenna.config.name.clone());
     let not_on_disk = |id| antenna(id)?.snapshot.not_on_disk.clone();
-    // STOP was passed on to the Azel that drives these; its outcome is not known here.
+    // Another Azel drives these antennas. STOP was passed on to it, but the outcome is unknown
+    // here.
     outcomes.extend(elsewhere.into_iter().map(|id| (id, Some(false))));
     let stopped = |(id, proved): (AntennaId, Option<bool>)| Stopped {
         antenna: name(id),
@@ -403,7 +403,7 @@ async fn set_lock_out(
     }
 }
 
-/// Why the next start would not know the present lock-outs.
+/// Returns the reason why the next start would not know the current lock-outs.
 fn not_on_disk(snapshot: &Snapshot) -> Option<String> {
     snapshot.alarms.list().iter().find_map(|alarm| match &alarm.kind {
         AlarmKind::LockOuts(reason) => Some(reason.clone()),

@@ -1,5 +1,5 @@
-//! "Test from here": fetches, on this computer, the source that a unit shall use, and looks
-//! at it as the unit will. One test at a time.
+//! "Test from here": fetches, on this computer, the source that a unit is to use, and reads it like
+//! the unit. One test runs at a time.
 
 mod runner;
 
@@ -19,7 +19,7 @@ fn source(tested: &TestedSource) -> ElementSource {
     }
 }
 
-/// The host whose key may need a decision.
+/// Returns the host whose key may need a decision.
 fn peer(tested: &TestedSource) -> Option<&Peer> {
     match tested {
         TestedSource::Web { .. } => None,

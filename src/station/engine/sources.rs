@@ -1,5 +1,5 @@
-//! Sources of elements: the bundled ones and the operator's. They are read, saved and
-//! fetched on a thread of their own.
+//! Sources of elements: the bundled source and the operator's sources. A separate thread reads,
+//! saves and fetches them.
 
 mod passwords;
 
@@ -27,11 +27,11 @@ use crate::{
     whole_file,
 };
 
-/// Names of the sources whose servers are to be asked at `now` without a client.
+/// Returns the names of sources whose servers Azel should ask at `now` without a client.
 pub(super) fn due_by_themselves(sources: &Sources, now: Timestamp) -> Vec<String> {
     let reported = sources.list.iter().zip(&sources.reports);
     let is_pausing = |report: &SourceReport| report.pause_end(now).is_some_and(|next| next > now);
-    // A server that has just failed is not asked for its other sources either.
+    // A server that has just failed is not asked for its other sources.
     let failed: Vec<String> = reported
         .clone()
         .filter(|(_, report)| report.failures > 0 && is_pausing(report))
@@ -53,7 +53,7 @@ pub(super) struct Places {
 }
 
 impl Places {
-    /// Puts the list beside the station file.
+    /// Creates the paths; the list is beside the station file.
     pub(super) fn new(station: Option<&Path>, library: Option<PathBuf>) -> Self {
         Self {
             list: station.map(|station| station.with_file_name("sources.toml")),
@@ -61,30 +61,30 @@ impl Places {
         }
     }
 
-    /// Folder of the library.
+    /// Returns the folder of the library.
     pub(super) fn library(&self) -> Option<&Path> {
         self.library.as_deref()
     }
 }
 
-/// Work to do before everything is read anew.
+/// Work before Azel reads all elements again.
 #[derive(Debug, Default)]
 pub(super) struct Task {
-    /// Elements to be copied into the library, with the name of their source.
+    /// Elements to copy into the library, with the name of their source.
     pub(super) copy: Option<(String, Copied)>,
-    /// A new list to save.
+    /// New list to save.
     pub(super) list: Option<Vec<Source>>,
-    /// Names of the sources whose servers are asked, where they may be.
+    /// Names of sources whose servers to ask, if permitted.
     pub(super) ask: Vec<String>,
     pub(super) set: Option<SetChoice>,
-    /// Sources that satellites prefer.
+    /// Preferred sources of satellites.
     pub(super) orders: SourceOrders,
-    /// The favourites, for servers that are asked for them alone.
+    /// Catalog numbers of the favourites, for servers that Azel asks only for these objects.
     pub(super) favourites: Vec<u32>,
     pub(super) passwords: Option<Passwords>,
-    /// Wait for the servers to take another log-in: the operator has typed a password.
+    /// `true` to wait until the servers accept another log-in: the operator has typed a password.
     pub(super) awaits_log_in: bool,
-    /// Ask even if they were asked lately.
+    /// `true` to ask even if the last request is recent.
     pub(super) forced: bool,
 }
 
@@ -92,12 +92,12 @@ pub(super) struct Task {
 pub(super) struct Outcome {
     /// Elements of all sources.
     pub(super) catalog: Catalog,
-    /// The reason why the bundled elements are missing.
+    /// Reason why the bundled elements are missing.
     pub(super) bundled_problem: Option<String>,
     pub(super) sources: Sources,
 }
 
-/// Starts `task` at `now`. Sets of `in_use` that newer ones replace are kept.
+/// Starts `task` at `now`. Stores sets of `in_use` that newer sets replace.
 pub(super) fn start(
     places: &Places,
     task: Task,
@@ -120,7 +120,7 @@ pub(super) fn start(
     })
 }
 
-/// The list on disk with a source of these elements, which are copied into the library.
+/// Copies elements into the library, and returns the stored list with a source of this copy.
 fn with_copy(places: &Places, name: &str, copied: &Copied) -> Result<Vec<Source>, String> {
     let path = places.list.as_deref().ok_or("this user has no folder for settings")?;
     let folder = places.library.as_deref().ok_or("this user has no folder for data")?;
@@ -148,8 +148,8 @@ fn with_copy(places: &Places, name: &str, copied: &Copied) -> Result<Vec<Source>
     Ok(list)
 }
 
-/// Keeps the sets that are not in use, and those of `before` that newer ones replaced, in the
-/// history of the library. A failure is logged: the elements in use are not concerned.
+/// Stores unused sets, and sets of `before` that newer sets replaced, in the library's history.
+/// Logs a failure, which does not affect the elements in use.
 fn keep_superseded(places: &Places, catalog: &mut Catalog, before: Option<&Catalog>) {
     let Some(folder) = places.library.as_deref() else { return };
     let merged = catalog.take_superseded().into_iter();
@@ -203,7 +203,7 @@ fn carry_out(
             None => sources.problems.push("this user has no folder for settings".to_owned()),
         }
     }
-    // Only the list on disk counts, whatever was requested.
+    // Use the list on disk even if the requested list was not saved.
     match places.list.as_deref().map_or(Ok(Vec::new()), load_sources) {
         Ok(list) => sources.list = list,
         Err(error) => {
@@ -211,7 +211,8 @@ fn carry_out(
             sources.is_locked = true;
         }
     }
-    // The catalog in use stays while the new one is built. Two whole ones would raise the peak of memory.
+    // The current catalog stays in use during the read. Sharing the bundled elements keeps the
+    // memory peak low.
     let read_bundled = in_use.map_or_else(bundled, bundled_sharing);
     let (mut catalog, bundled_problem) = match read_bundled {
         Ok(catalog) => (catalog, None),
@@ -229,7 +230,7 @@ fn carry_out(
     Outcome { catalog, bundled_problem, sources }
 }
 
-/// Log-in names of `previous` that no source in `list` uses any more.
+/// Returns the log-in names of `previous` that no source in `list` uses any more.
 fn unused_log_ins<'a>(previous: &'a [Source], list: &'a [Source]) -> impl Iterator<Item = &'a str> {
     let users = previous.iter().filter_map(|source| match &source.place {
         SourcePlace::SpaceTrack(user) => Some(user.as_str()),
@@ -258,15 +259,15 @@ fn read(
         list.iter().filter(|source| task.ask.contains(&source.name)).cloned().collect();
     let now =
         if task.awaits_log_in { after_pause(&library, &read_sources, now, cancelled) } else { now };
-    // The stored elements stay in use if the disk is full.
+    // If the disk is full, the stored elements stay in use.
     let refreshed = library.refresh(&read_sources, now, task.forced, cancelled);
     sources.problems.extend(refreshed.err().map(in_words));
     library.read_again(list, &task.ask);
     Ok(library.load_into(list, catalog))
 }
 
-/// Waits until the servers of `sources` take another log-in, and returns the time then: a password may
-/// be typed within seconds after a refused one. Does not wait for the end of longer limits.
+/// Waits until the servers of `sources` accept another log-in, and returns the time after the wait.
+/// The operator may type a password seconds after a refused one. Does not wait for longer limits.
 fn after_pause(
     library: &Library,
     sources: &[Source],
@@ -301,7 +302,7 @@ mod tests {
 
     const ISS: u32 = 25_544;
 
-    /// Epoch of the ISS in [`Fixture::newer_file`].
+    /// Returns the epoch of the ISS in [`Fixture::newer_file`].
     fn own_epoch() -> Timestamp {
         "2026-08-12T10:00:00Z".parse().unwrap()
     }
@@ -328,12 +329,12 @@ mod tests {
             carry_out(&self.places, task, None, now, &|| false)
         }
 
-        /// A file that holds the ISS a day after the bundled elements.
+        /// Returns a source whose file has the ISS a day after the bundled elements.
         fn newer_file(&self) -> Source {
             self.file("own", "2026-08-12T10:00:00.000000")
         }
 
-        /// A file that holds the ISS at this epoch.
+        /// Returns a source whose file has the ISS at this epoch.
         fn file(&self, name: &str, epoch: &str) -> Source {
             let bundled = bundled().unwrap();
             let mut text = Vec::new();
@@ -426,7 +427,7 @@ mod tests {
 
     #[test]
     fn a_password_that_is_missing_or_locked_is_told_and_no_server_is_asked() {
-        /// A keyring that waits for its operator for longer than anybody asks.
+        /// Keyring that waits for its operator longer than any request.
         struct Locked;
 
         impl Keyring for Locked {
@@ -499,7 +500,7 @@ mod tests {
             ..Task::default()
         };
         assert_eq!(fixture.run(&ask()).sources.problems, [""; 0]);
-        // A folder stands in the way of the index.
+        // A folder blocks the place of the index.
         let old = whole_file::old(&data.join("index.toml"));
         let _ = fs::remove_file(&old);
         fs::create_dir_all(old.join("x")).unwrap();
@@ -557,7 +558,7 @@ mod tests {
         fixture.run(&Task { list: Some(vec![own.clone()]), ..Task::default() });
         let note = fixture.folder.path().join("data/reading.toml");
         assert_eq!(fs::read(&note).unwrap(), b"", "the reading came to its end");
-        // The state that a program leaves if it ends at this point.
+        // Leave the note like a program that ends at this point.
         fs::write(&note, toml::to_string(&own).unwrap()).unwrap();
         for _ in 0..2 {
             let outcome = fixture.run(&Task::default());
@@ -583,7 +584,7 @@ mod tests {
     fn a_list_that_cannot_be_kept_leaves_the_one_on_disk() {
         let fixture = Fixture::new();
         let own = fixture.newer_file();
-        // A file is where the folder should be.
+        // A file blocks the place of the folder.
         fs::write(fixture.folder.path().join("config"), "").unwrap();
         let outcome = fixture.run(&Task { list: Some(vec![own]), ..Task::default() });
         assert!(!outcome.sources.problems.is_empty() && outcome.sources.list.is_empty());
@@ -593,7 +594,7 @@ mod tests {
     fn one_problem_does_not_hide_another() {
         let fixture = Fixture::new();
         let own = fixture.newer_file();
-        // A file is where the folder should be.
+        // A file blocks the place of the folder.
         fs::write(fixture.folder.path().join("config"), "").unwrap();
         let problems = |set: Option<SetChoice>| {
             let task = Task { list: Some(vec![own.clone()]), set, ..Task::default() };

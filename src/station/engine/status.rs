@@ -19,7 +19,7 @@ pub struct AntennaStatus {
     /// Name of the antenna.
     pub antenna: String,
     pub link: LinkStatus,
-    /// The operator's intent: `standby`, `manual`, `position`, `track` or `park`.
+    /// Operator's intent: `standby`, `manual`, `position`, `track` or `park`.
     pub intent: String,
     /// Measured azimuth, degrees.
     pub azimuth_deg: Option<f64>,
@@ -31,7 +31,7 @@ pub struct AntennaStatus {
     pub moves: Option<bool>,
     /// Name of the tracked target, with on-board or program track.
     pub tracks: Option<String>,
-    /// A STOP is owed.
+    /// `true` if a STOP is owed.
     pub owes_stop: bool,
     /// Automatic operation.
     pub automatic: AutomaticStatus,
@@ -45,11 +45,11 @@ pub struct AntennaStatus {
 pub enum AutomaticStatus {
     Off,
     On,
-    /// It waits for the operator, because somebody moved the antenna.
+    /// Automatic operation waits for the operator because somebody moved the antenna.
     Suspended,
 }
 
-/// The link to a unit.
+/// State of the link to a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum LinkStatus {
@@ -61,7 +61,7 @@ pub enum LinkStatus {
     Up,
     /// The last answer is old.
     Stale,
-    /// The link is gone and tried again.
+    /// The link is lost, and Azel tries to connect again.
     Lost,
     /// Another Azel of this machine drives the unit.
     Elsewhere,
@@ -81,7 +81,7 @@ impl LinkStatus {
 }
 
 impl AntennaStatus {
-    /// Status of all antennas.
+    /// Returns the status of all antennas.
     pub fn of_all(station: &Snapshot) -> Vec<Self> {
         station.antennas.iter().map(Self::new).collect()
     }

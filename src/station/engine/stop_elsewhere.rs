@@ -1,5 +1,5 @@
-//! Passes STOP on to the processes that drive antennas of this station. One thread serves all; the
-//! presses for one antenna coalesce until the last one has left.
+//! Delivery of STOP to the processes that drive antennas of this station. One thread serves all
+//! antennas; presses for one antenna coalesce until the last one is sent.
 
 use std::{collections::BTreeMap, io, sync::Arc, thread};
 
@@ -18,20 +18,20 @@ use super::{
 };
 use crate::station::AntennaId;
 
-/// Where a STOP goes.
+/// Address of a STOP.
 #[derive(Debug, Clone)]
 pub(super) struct Press {
-    /// Lock that the other process has.
+    /// Lock of the other process.
     pub(super) lock: String,
-    /// Name of the antenna, where the other process gives it none of its own.
+    /// Name of the antenna, if the other process has no name for it.
     pub(super) antenna: String,
 }
 
-/// Delivers STOPs until it is dropped, and then those that are on their way.
+/// Courier that delivers STOPs. After its drop, it still delivers STOPs already under way.
 pub(super) struct Courier {
     folders: Arc<LockFolders>,
     client: Client,
-    /// The last press for each antenna.
+    /// Last press for each antenna.
     presses: BTreeMap<AntennaId, watch::Sender<Press>>,
     runtime: Handle,
     deliveries: TaskTracker,
@@ -47,7 +47,7 @@ impl Courier {
         let at_end = deliveries.clone();
         thread::Builder::new().name("azel-stop-elsewhere".to_owned()).spawn(move || {
             runtime.block_on(async {
-                // An error means that the courier is gone, which says the same.
+                // Both results mean that the courier was dropped.
                 let _ = ended.await;
                 at_end.close();
                 at_end.wait().await;
@@ -76,7 +76,7 @@ impl Courier {
     }
 }
 
-/// Delivers the presses for one antenna.
+/// Delivery of the presses for one antenna.
 struct Delivery {
     folders: Arc<LockFolders>,
     client: Client,
@@ -87,7 +87,7 @@ impl Delivery {
     async fn run(mut self) {
         loop {
             let answers = self.deliver().await;
-            // A press that comes now goes out at once. Its own answer counts then.
+            // A new press goes out at once, and its answer then replaces the pending one.
             let is_stopped = tokio::select! {
                 is_stopped = are_stopped(answers) => is_stopped,
                 more = self.presses.changed() => match more {
@@ -104,7 +104,7 @@ impl Delivery {
         }
     }
 
-    /// Sends STOP to each holder of the lock, and returns the answers that are awaited.
+    /// Sends STOP to each holder of the lock, and returns the pending answers.
     async fn deliver(&mut self) -> JoinSet<Outcome> {
         let Press { lock, antenna } = self.presses.borrow_and_update().clone();
         let mut answers = JoinSet::new();
@@ -118,7 +118,7 @@ impl Delivery {
     }
 }
 
-/// Returns `true` if there is an answer, and each one proves standstill.
+/// Returns `true` if there is an answer and every answer proves standstill.
 async fn are_stopped(answers: JoinSet<Outcome>) -> bool {
     let outcomes = answers.join_all().await;
     let is_proved = |outcome: &Outcome| match outcome {

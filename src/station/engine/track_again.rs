@@ -1,4 +1,4 @@
-//! Offers a track again, for a while, that STOP has ended.
+//! Offer, for a limited time, to resume a track that STOP has ended.
 
 use jiff::Timestamp;
 
@@ -15,11 +15,11 @@ use crate::{
     station::AntennaId,
 };
 
-/// Time for which a track is offered, seconds.
+/// Duration of the offer, seconds.
 const OFFERED_S: f64 = 600.0;
 
 impl Engine {
-    /// Remembers the track that an antenna was asked for. Any other choice ends the offer.
+    /// Stores the track that a client ordered for an antenna. Any other choice ends the offer.
     pub(super) fn note_track(&mut self, command: &Command) {
         let (id, ordered) = match command {
             Command::Track { antenna, pass, is_agreed: false }
@@ -48,7 +48,8 @@ impl Engine {
         self.antennas.get_mut(place).map(|antenna| &mut antenna.shown)
     }
 
-    /// Offers a target that waits for the operator's decision like one that STOP has ended.
+    /// Offers to resume a target that waits for the operator's decision, like a track that STOP has
+    /// ended.
     pub(super) fn offer_resume(&mut self, index: usize, name: &str) {
         let end = add_seconds(self.now, OFFERED_S);
         let Some(antenna) = self.antennas.get_mut(index) else { return };
@@ -56,7 +57,7 @@ impl Engine {
         antenna.shown.track_again = Some(TrackAgain { name: name.to_owned(), command, end });
     }
 
-    /// Records a STOP that has gone to the sessions.
+    /// Applies a STOP that was sent to the sessions to the rest of the station.
     pub(super) fn note_stop(&mut self, stopped: &Stopped) {
         self.note_pressed_stop(stopped);
         self.upload_runner.stopped();
@@ -65,7 +66,7 @@ impl Engine {
         self.stop_elsewhere(&elsewhere);
         self.drop_waiting_settings();
         self.end_automatic_by_stop(stopped);
-        // STOP while the antennas are parked for the end: the operator is needed here.
+        // STOP also ends parking for the close: the operator must decide.
         self.closing.take_if(|closing| closing.choice == CloseHow::Park);
         let latest = add_seconds(self.now, OFFERED_S);
         let now = self.moment();
@@ -75,7 +76,7 @@ impl Engine {
             let is_meant = stopped.antennas.contains(&id)
                 || stopped.is_for_all && antenna.handle.stopper().is_wanted();
             if is_new && is_meant {
-                // The session was opened after the STOP.
+                // The session opened after the STOP, so send STOP again.
                 antenna.handle.stop();
             }
             if !stopped.antennas.contains(&id) {
@@ -96,8 +97,8 @@ impl Engine {
         }
     }
 
-    /// The antennas that this STOP was meant for and that were left to another process after it was
-    /// pressed.
+    /// Returns the antennas that this STOP was meant for and that moved to another process after
+    /// the press.
     fn antennas_left_since(&self, stopped: &Stopped) -> impl Iterator<Item = AntennaId> {
         let left = self.antennas.iter().filter(|antenna| match antenna.hold {
             Hold::Ours(_) => false,
@@ -128,7 +129,7 @@ impl Engine {
     }
 }
 
-/// End of the pass that is tracked or comes next; never for a target that does not set.
+/// Returns the end of the current or next pass; `Timestamp::MAX` for a target that does not set.
 fn end_of(follow: &ProgramTrack, now: Timestamp) -> Timestamp {
     let passes = follow.passes.iter();
     passes.map(|(_, los)| *los).find(|los| *los > now).unwrap_or(Timestamp::MAX)

@@ -1,4 +1,4 @@
-//! One turn: takes all reports that have come in and brings the published state up to date.
+//! One turn: reads all new reports and updates the published state.
 
 use std::sync::Arc;
 
@@ -26,8 +26,8 @@ use crate::{
 };
 
 impl Engine {
-    /// Takes all reports that have come in since the last turn. `turn` is the number of what the
-    /// station asks for by itself, drawn before the last look for a STOP.
+    /// Handles all reports since the last turn. `turn` is the number of the station's own requests,
+    /// drawn before the last check for a STOP.
     pub(super) fn turn(&mut self, turn: u64) {
         self.set_time();
         self.watch_clock();
@@ -64,8 +64,8 @@ impl Engine {
         self.record_turn();
     }
 
-    /// Checks the clock before anything acts on UTC. After a step, automatic operation waits for the
-    /// time service. It is suspended unless the service keeps the clock.
+    /// Checks the clock before anything uses UTC. After a step, automatic operation waits for the
+    /// time service. Azel suspends it unless the service synchronises the clock.
     fn watch_clock(&mut self) {
         let now = Moment { utc: self.now, steady: self.steady };
         if self.clock_watch.was_set(now, self.clock.asleep()) {
@@ -117,7 +117,7 @@ impl Engine {
         let Ok(outcome) = end else {
             alarms.raise(None, AlarmKind::BrokeOff(Work::Elements), now);
             self.sources.work = SourceWork::Nothing;
-            // Only one retry: the source at which it broke off is set aside now.
+            // Retry only once: the library now sets aside the source that broke the reading off.
             if !std::mem::replace(&mut self.elements_broke_off, true) {
                 self.begin_elements(Task::default());
             } else if matches!(self.catalog, CatalogState::Loading) {
@@ -157,7 +157,7 @@ impl Engine {
 
     fn start_demo(&mut self) {
         let CatalogState::Ready(catalog) = &self.catalog else { return };
-        // The simulated unit can track whatever the operator can select.
+        // The simulated unit must be able to track everything that the operator can select.
         let elements = catalog.iter().cloned().collect();
         match Demo::start(&self.station, elements) {
             Ok(demo) => {
@@ -227,14 +227,14 @@ impl Engine {
                 antenna.asks_unseen = Some(act.clone());
             }
             if event == Event::Stopped {
-                // All snapshots between the press and standstill may have been missed.
+                // The station may have missed all snapshots between the press and standstill.
                 antenna.stop_pressed = None;
             }
             antenna.news = Some((event, now));
         }
     }
 
-    /// Raises and clears alarms that depend on the state rather than on an event.
+    /// Raises and clears alarms that follow from the state, not from an event.
     fn watch_state(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let snapshot = Arc::clone(&antenna.shown.snapshot);
@@ -275,7 +275,7 @@ impl Engine {
         }
         let checks = &snapshot.state.checks;
         if snapshot.link == LinkState::Off {
-            // No such alarms are wanted while the unit is left to others.
+            // While Azel wants no link, these alarms are not wanted either.
             alarms.clear(antenna_id, now, |kind| {
                 matches!(kind, AlarmKind::LinkLost(_) | AlarmKind::Check(_))
             });

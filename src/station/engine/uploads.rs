@@ -1,9 +1,9 @@
-//! Uploads of element files to units: one upload or roll-back at a time, from the choice of
+//! Uploads of element files to units. One upload or roll-back runs at a time, from the choice of
 //! satellites until the unit reports that it has found them.
 //!
-//! Invariants: nothing counts as proved before the file was read back in its place and the
-//! unit has named the satellite in it; slow work runs on threads of its own; no secret is
-//! in the displayed state.
+//! Invariants: an upload counts as proved only after Azel has read the file back in its place and
+//! the unit has named the satellite in it. Slow work runs on its own threads. The displayed state
+//! contains no secret.
 
 mod errand;
 mod flow;

@@ -1,5 +1,4 @@
-//! The station in use: read from its file or handed over by the operator, with a session for
-//! each antenna.
+//! Station in use: read from its file or supplied by the operator, with a session for each antenna.
 
 use std::sync::Arc;
 
@@ -50,7 +49,7 @@ impl Engine {
     }
 
     pub(super) fn load_station(&mut self) {
-        // The running demo ends once another station is in use.
+        // The running demo ends after another station is in use.
         let _demo = self.demo.take();
         let loaded = match &self.settings_path {
             Some(path) => station::load(path, SPECS),
@@ -76,21 +75,21 @@ impl Engine {
                 let text = error.to_string();
                 tracing::error!("{text}");
                 self.alarms.raise(None, AlarmKind::Settings(text), self.now);
-                // Nothing is connected or overwritten without the operator.
+                // Without the operator, Azel connects and overwrites nothing.
                 self.settings_unread = true;
                 self.use_station(Station::default());
             }
         }
     }
 
-    /// Takes a station into use. Unchanged antennas keep their session.
+    /// Uses a station. Unchanged antennas keep their session.
     pub(super) fn use_station(&mut self, station: Station) {
         self.record_station(&station);
-        // A new session goes on with the lessons of the previous one.
+        // A new session adopts the learned properties of the previous one.
         self.note_learned_drives();
         self.keep_locked_out(&station.antennas);
         let mut before = std::mem::take(&mut self.antennas);
-        // The alarms of a unit end with it; a STOP that it is owed is an alarm of its own.
+        // Drop the alarms of units that leave; an owed STOP has its own alarm.
         let is_same = |new: &&station::Antenna| {
             let previous = before.iter().find(|antenna| antenna.shown.id() == new.id);
             previous.is_some_and(|previous| Unit::new(&previous.shown.config) == Unit::new(new))
@@ -98,14 +97,13 @@ impl Engine {
         let same: Vec<AntennaId> =
             station.antennas.iter().filter(is_same).map(|antenna| antenna.id).collect();
         self.alarms.keep_only(&same);
-        // The antenna may be the same one at a new address: then both units are owed a
-        // STOP.
+        // The antenna may be the same one at a new address, so both units are owed a STOP.
         let debts = self.driver.debts().clone();
         let owed: Vec<String> = (before.iter())
             .filter(|antenna| debts.owes(&Unit::new(&antenna.shown.config)))
             .map(|antenna| antenna.shown.config.name.clone())
             .collect();
-        // A unit accepts one client: the old session leaves first.
+        // A unit accepts one client, so the old session leaves first.
         let is_kept = |antenna: &mut Antenna| {
             antenna.shown.held_by.is_none() && station.antennas.contains(&antenna.shown.config)
         };
@@ -153,7 +151,7 @@ impl Engine {
             self.cancel_resumption(index);
         }
         self.keep_fingerprint();
-        // From now on STOP reaches the new sessions.
+        // From here on, STOP reaches the new sessions.
         self.publish();
     }
 
@@ -174,9 +172,9 @@ impl Engine {
         let (handle, held_by, hold) = match claim {
             Ok(claim) => {
                 let lock_out = self.lock_outs.find(&config.connection).cloned();
-                // The claim lasts until the session has ended.
+                // The claim lasts until the session ends.
                 let lock = Box::new(claim.clone());
-                // Only a start connects without the operator, and not a change of a setting later.
+                // Connect without the operator only at the start, not after a change of settings.
                 let connects_at_start = config.connects_at_start && !self.has_started;
                 let opened =
                     station::Antenna { connects_at_start, ..station::Antenna::clone(&config) };
@@ -201,7 +199,7 @@ impl Engine {
         }
     }
 
-    /// Index of an antenna, if the station still has it.
+    /// Returns the index of an antenna, if the station still has it.
     pub(super) fn place(&self, id: AntennaId) -> Option<usize> {
         self.antennas.iter().position(|antenna| antenna.shown.id() == id)
     }

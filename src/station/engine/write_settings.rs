@@ -1,4 +1,4 @@
-//! Passes changes of settings to a session. Changes of service settings wait until the
+//! Changes of settings on their way to a session. Changes of service settings wait until the
 //! previous values are saved in a file.
 
 use super::{
@@ -23,7 +23,7 @@ impl Engine {
         change.is_unlocked && group.is_some_and(|one| one.guard(&change.values) == Guard::Service)
     }
 
-    /// Sends a change to the session; a service setting only after a copy was saved.
+    /// Sends a change to the session. A service setting waits until a copy is saved.
     pub(super) fn write_settings(&mut self, index: usize, change: Change) {
         if !self.needs_copy(index, &change) {
             return self.send(index, driver::Command::WriteSettings(change));
@@ -42,7 +42,7 @@ impl Engine {
         }
     }
 
-    /// Drops changes that still wait for their copy: a STOP voids them.
+    /// Drops changes that wait for their copy: a STOP voids them.
     pub(super) fn drop_waiting_settings(&mut self) {
         let Some(waiting) = self.copy_work.waiting.take() else { return };
         let names = self.antennas.iter().map(|antenna| antenna.shown.config.name.as_str());
@@ -75,7 +75,7 @@ impl Engine {
         self.copies.open = Some(OpenCopy { antenna: name, listed: Vec::new(), read: None });
     }
 
-    /// Takes the outcomes of the copies' thread.
+    /// Handles the outcomes of the thread for copies.
     pub(super) fn take_copies(&mut self) {
         let Some(outcome) = self.copy_work.turn(&self.wake) else { return };
         let now = self.now;

@@ -4,8 +4,8 @@ use std::sync::OnceLock;
 
 use rustls::pki_types::CertificateDer;
 
-/// The certificate authorities that the system trusts, or those of `SSL_CERT_FILE` and
-/// `SSL_CERT_DIR`, in DER; read once. Empty on a system without any.
+/// Returns the system's certificate authorities in DER, or the ones in `SSL_CERT_FILE` and
+/// `SSL_CERT_DIR`. Reads them once. Empty on a system without authorities.
 pub fn system_authorities() -> &'static [CertificateDer<'static>] {
     static AUTHORITIES: OnceLock<Vec<CertificateDer<'static>>> = OnceLock::new();
     AUTHORITIES.get_or_init(|| {

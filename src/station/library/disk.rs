@@ -1,4 +1,4 @@
-//! Files of elements, read whole with a limit.
+//! Element files, read whole with a size limit.
 
 use std::{
     ffi::OsStr,
@@ -12,14 +12,13 @@ use jiff::Timestamp;
 /// Content of a file.
 pub(super) struct File {
     pub(super) bytes: Vec<u8>,
-    /// Time of the last change, if the disk reports it.
+    /// Time of the last change, if the file system reports it.
     pub(super) modified: Option<Timestamp>,
 }
 
-/// Reads the file at `path`, if it has at most `limit` bytes. Folders, devices and pipes
-/// are refused.
+/// Reads the file at `path`, at most `limit` bytes. Refuses folders, devices and pipes.
 pub(super) fn read(path: &Path, limit: u64) -> io::Result<File> {
-    // Checked before opening: a pipe without a writer would block.
+    // Check the type before opening: a pipe without a writer would block.
     if !fs::metadata(path)?.is_file() {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "not a regular file"));
     }
@@ -29,7 +28,7 @@ pub(super) fn read(path: &Path, limit: u64) -> io::Result<File> {
     Ok(File { bytes: read_limited(file, limit)?, modified })
 }
 
-/// Reads to the end. Beyond `limit` bytes returns an error of kind `FileTooLarge`.
+/// Reads to the end. Returns an error of kind `FileTooLarge` beyond `limit` bytes.
 pub fn read_limited(reader: impl io::Read, limit: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     reader.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
@@ -42,7 +41,7 @@ pub fn read_limited(reader: impl io::Read, limit: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Files in `folder` with one of these extensions in any case, sorted by name.
+/// Returns the files in `folder` with one of these extensions in any case, sorted by name.
 pub(super) fn files(folder: &Path, endings: &[&str]) -> io::Result<Vec<PathBuf>> {
     let is_wanted = |path: &PathBuf| {
         let ending = path.extension().and_then(OsStr::to_str);

@@ -13,11 +13,11 @@ use crate::{contract::older_sets::OlderSet, orbit::Catalog, whole_file};
 /// Name of the file in the folder of the library.
 const NAME: &str = "older-sets-in-use.json";
 
-/// An older set in use of one object.
+/// Older set that the operator uses for one object.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Exception {
     set: OlderSet,
-    /// Epoch of the newest set when the operator chose this one; a newer set ends the exception.
+    /// Epoch of the newest set at the operator's choice; a newer set ends the exception.
     newest: Timestamp,
 }
 
@@ -26,8 +26,8 @@ impl Exception {
         self.set.elements.catalog_number()
     }
 
-    /// Returns `true` if a set has come to `catalog` that is newer than there was. A newest set whose
-    /// epoch lay too far ahead counts as older than any current one.
+    /// Returns `true` if `catalog` has a newer set than at the operator's choice. A set with an
+    /// epoch too far in the future counts as older than any current set.
     fn is_over(&self, catalog: &Catalog) -> bool {
         catalog
             .get(self.number())
@@ -35,7 +35,7 @@ impl Exception {
     }
 }
 
-/// The older sets in use, at most one of each object.
+/// Older sets in use, at most one of each object.
 #[derive(Debug)]
 pub struct Exceptions {
     path: PathBuf,
@@ -43,8 +43,8 @@ pub struct Exceptions {
 }
 
 impl Exceptions {
-    /// Reads the file of the library in `folder`, which need not exist. There are none if it
-    /// cannot be read: the newest sets are in use then.
+    /// Reads the file in the library folder, which may be missing. An unreadable file counts as
+    /// empty: Azel then uses the newest sets.
     pub fn load(folder: &Path) -> Self {
         let path = folder.join(NAME);
         let list = match read(&path) {
@@ -59,7 +59,7 @@ impl Exceptions {
         Self { path, list }
     }
 
-    /// Uses `set` until a set that is newer than `newest` comes.
+    /// Uses `set` until a set newer than `newest` arrives.
     pub fn begin(&mut self, set: OlderSet, newest: Timestamp) -> io::Result<()> {
         let new = Exception { set, newest };
         self.list.retain(|exception| exception.number() != new.number());
@@ -67,7 +67,7 @@ impl Exceptions {
         self.save()
     }
 
-    /// Uses the newest set of an object again.
+    /// Returns to the newest set of an object.
     pub fn end(&mut self, catalog_number: u32) -> io::Result<()> {
         self.retain(|exception| exception.number() != catalog_number)
     }
@@ -77,12 +77,12 @@ impl Exceptions {
         self.retain(|exception| !exception.is_over(catalog))
     }
 
-    /// Returns `true` if the operator has chosen the set of this object.
+    /// Returns `true` if the operator uses an older set for this object.
     pub fn has(&self, catalog_number: u32) -> bool {
         self.list.iter().any(|exception| exception.number() == catalog_number)
     }
 
-    /// Puts the older sets in use in `catalog`, which holds all newest sets.
+    /// Replaces the newest sets in `catalog` by the older sets in use.
     pub fn apply(&self, catalog: &mut Catalog) {
         for exception in &self.list {
             if !exception.is_over(catalog) {
@@ -114,7 +114,7 @@ mod tests {
 
     const ISS: u32 = 25_544;
 
-    /// The ISS with an epoch of this day of August 2026.
+    /// Returns the ISS with an epoch on `day` August 2026.
     fn set(day: u32) -> OlderSet {
         let bundled = crate::orbit::bundled().unwrap();
         let mut text = Vec::new();

@@ -1,4 +1,4 @@
-//! A polite request to a server.
+//! Requests to element servers, within limits.
 
 use std::{env, io, time::Duration};
 
@@ -15,14 +15,14 @@ use crate::{contract::sources::check_address, orbit::FetchProblem};
 /// Limits for requests and files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// Time limit of a whole request.
+    /// Timeout of a whole request.
     pub timeout: Duration,
-    /// Size limit of one unpacked body, or one file.
+    /// Max size of one unpacked body or one file, bytes.
     pub bytes: u64,
 }
 
 impl Default for Limits {
-    /// A minute and 64 MB: the whole catalog as XML has 30.
+    /// Returns one minute and 64 MB: the whole catalog as XML has 30 MB.
     fn default() -> Self {
         Self { timeout: Duration::from_mins(1), bytes: 64 << 20 }
     }
@@ -36,14 +36,14 @@ pub(super) enum ServerAnswer {
     New { body: Vec<u8>, etag: Option<String>, last_modified: Option<String> },
 }
 
-/// Host of `url`; empty if it has none.
+/// Returns the host of `url`; empty if `url` has none.
 pub(super) fn host(url: &str) -> String {
     let uri: Option<Uri> = url.parse().ok();
     uri.and_then(|uri| uri.host().map(str::to_lowercase)).unwrap_or_default()
 }
 
-/// Requests `url` once, conditionally if `record` is given. Follows no redirection: an
-/// address that has moved is for the operator to look at.
+/// Requests `url` once, conditionally if `record` is given. Follows no redirection: the operator
+/// must check an address that has moved.
 pub(super) fn fetch(
     url: &str,
     record: Option<&Record>,
@@ -75,7 +75,7 @@ pub(super) fn fetch(
     Ok(ServerAnswer::New { body, etag, last_modified })
 }
 
-/// A client for requests to the server of `url`, which must be allowed.
+/// Returns a client for the server of `url`. Fails if Azel may not ask this address.
 pub(super) fn agent(
     url: &str,
     limits: Limits,
@@ -94,14 +94,14 @@ pub(super) fn agent(
     Ok(Agent::from(config.build()))
 }
 
-/// Variables that name a proxy. The first one that is set counts.
+/// Environment variables that name a proxy. The first set variable counts.
 const PROXY_VARIABLES: [&str; 6] =
     ["ALL_PROXY", "all_proxy", "HTTPS_PROXY", "https_proxy", "HTTP_PROXY", "http_proxy"];
-/// Variables that list the hosts to reach without a proxy.
+/// Environment variables that list hosts to reach without a proxy.
 const NO_PROXY_VARIABLES: [&str; 2] = ["NO_PROXY", "no_proxy"];
 
-/// Returns the proxy of the environment, with the hosts that are reached without it. Every proxy must
-/// be usable: to go past one in silence could be forbidden.
+/// Returns the proxy of the environment, with its exempt hosts. Fails if any proxy is unusable:
+/// bypassing a proxy silently could be forbidden.
 fn proxy(value: impl Fn(&str) -> Option<String>) -> Result<Option<Proxy>, FetchProblem> {
     let mut first = None;
     for name in PROXY_VARIABLES {
@@ -111,7 +111,7 @@ fn proxy(value: impl Fn(&str) -> Option<String>) -> Result<Option<Proxy>, FetchP
     }
     let Some((name, proxy)) = first else { return Ok(None) };
     let hosts = NO_PROXY_VARIABLES.into_iter().find_map(value).unwrap_or_default();
-    // The library reads the list itself, but keeps the blanks that many put after the commas.
+    // The HTTP client parses the list too, but keeps blanks after the commas.
     let hosts = hosts.split([',', ' ', '\t']).filter(|host| !host.is_empty());
     let mut own = Proxy::builder(proxy.protocol()).host(proxy.host()).port(proxy.port());
     if let Some(user) = proxy.username() {
@@ -124,7 +124,8 @@ fn proxy(value: impl Fn(&str) -> Option<String>) -> Result<Option<Proxy>, FetchP
     own.build().map(Some).map_err(|_| FetchProblem::Proxy(name.to_owned()))
 }
 
-/// The unpacked body of an answer. Unpacked bytes count: a small answer may unpack to anything.
+/// Returns the unpacked body of an answer. The limit applies to unpacked bytes: a small answer may
+/// unpack to any size.
 pub(super) fn body_of(response: Response<Body>, limits: Limits) -> Result<Vec<u8>, FetchProblem> {
     read_limited(response.into_body().into_reader(), limits.bytes).map_err(|error| {
         match error.kind() {
@@ -134,7 +135,7 @@ pub(super) fn body_of(response: Response<Body>, limits: Limits) -> Result<Vec<u8
     })
 }
 
-/// Reason why `agent` got no answer from `url`.
+/// Returns the reason why `agent` got no answer from `url`.
 pub(super) fn unanswered(error: &ureq::Error, agent: &Agent, url: &str) -> FetchProblem {
     let cause = match error {
         ureq::Error::Rustls(error) => Some(error),
@@ -152,7 +153,8 @@ pub(super) fn unanswered(error: &ureq::Error, agent: &Agent, url: &str) -> Fetch
     }
 }
 
-/// Names the proxy on the way to `url`, without its log-in: it may be what does not answer.
+/// Returns the proxy on the way to `url` as text without its log-in: the proxy may be the silent
+/// host.
 fn way(agent: &Agent, url: &str) -> String {
     let uri: Option<Uri> = url.parse().ok();
     match (agent.config().proxy(), uri) {

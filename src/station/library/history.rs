@@ -1,7 +1,7 @@
 //! Older sets of elements of each object, in one compressed file of the library.
 //!
-//! A line holds one set: catalog number, epoch in microseconds, and the set with the name of its
-//! source as JSON. A line that cannot be read costs itself alone.
+//! Each line has the catalog number, the epoch in microseconds, and the set with its source's name
+//! as JSON. An unreadable line does not affect the other lines.
 
 use std::{
     collections::BTreeMap,
@@ -16,27 +16,27 @@ use crate::{contract::older_sets::OlderSet, whole_file};
 
 /// Name of the file in the folder of the library.
 const NAME: &str = "older-sets.gz";
-/// Sets that are kept of each object, besides the one in use.
+/// Number of stored sets of each object, besides the one in use.
 const MAX_SETS: usize = 4;
-/// A file that unpacks to more is not one of ours.
+/// Max unpacked size, bytes. Azel never writes a larger file.
 const MAX_UNPACKED: u64 = 1 << 28;
 
-/// The older sets on disk.
+/// Older sets on disk.
 #[derive(Debug)]
 pub struct History {
     path: PathBuf,
 }
 
-/// The lines of one object with their epochs, the newest first.
+/// Lines of one object with their epochs, the newest first.
 type Lines = Vec<(i64, String)>;
 
 impl History {
-    /// The history of the library in `folder`, which need not exist yet.
+    /// Creates the history of the library in `folder`, which may not exist yet.
     pub fn new(folder: &Path) -> Self {
         Self { path: folder.join(NAME) }
     }
 
-    /// The older sets of an object, the newest first.
+    /// Returns the older sets of an object, the newest first.
     pub fn sets_of(&self, catalog_number: u32) -> Vec<OlderSet> {
         let text = self.text();
         let lines = text.lines().filter_map(parts);
@@ -47,7 +47,7 @@ impl History {
         sets
     }
 
-    /// Adds sets. Of each object the newest are kept.
+    /// Adds sets, and keeps the newest four of each object.
     pub fn add(&self, sets: &[OlderSet]) -> io::Result<()> {
         if sets.is_empty() {
             return Ok(());
@@ -83,8 +83,8 @@ impl History {
         whole_file::replace_and_keep_old(&self.path, &packed.finish()?)
     }
 
-    /// The text of the file, or of the one before it where this one is damaged; what was read
-    /// of a damaged one where there is no other.
+    /// Returns the text of the file. If the file is damaged, returns the previous file, or else the
+    /// readable start of the damaged one.
     fn text(&self) -> String {
         let read = read(&self.path);
         match read {
@@ -100,7 +100,7 @@ impl History {
     }
 }
 
-/// Why a file could not be read to its end.
+/// Reason why a file could not be read to its end.
 struct Damage {
     error: io::Error,
     /// Text that was read before the error.
@@ -135,7 +135,7 @@ mod tests {
 
     const ISS: u32 = 25_544;
 
-    /// The ISS with an epoch of this day of August 2026.
+    /// Returns the ISS with an epoch on `day` August 2026.
     fn set(day: u32, source: &str) -> OlderSet {
         let bundled = bundled().unwrap();
         let mut text = Vec::new();

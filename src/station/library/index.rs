@@ -1,4 +1,4 @@
-//! Index of every address that was asked, in a small TOML file.
+//! Index of all requested addresses, in a small TOML file.
 
 use std::{
     collections::BTreeMap,
@@ -12,16 +12,16 @@ use serde::{Deserialize, Serialize};
 use super::lock::Lock;
 use crate::{orbit::FetchProblem, whole_file};
 
-/// Version that this program writes. A file of a later version is left alone.
+/// Version that this program writes. Azel leaves a file of a later version unchanged.
 const VERSION: u32 = 1;
-/// Maximum length of the part of a file name taken from the source's name.
+/// Max length of the part of a file name taken from the source's name, characters.
 const MAX_FILE_CHARS: usize = 40;
 
-/// All addresses that were ever asked.
+/// All addresses that Azel ever asked.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Index {
     version: u32,
-    /// Key is the address: a source with a new address shares nothing with the old one.
+    /// Records by address: a source with a new address shares nothing with its old address.
     #[serde(default)]
     address: BTreeMap<String, Record>,
 }
@@ -40,24 +40,24 @@ pub(super) struct Record {
     pub(super) confirmed_at: Option<Timestamp>,
     /// Entity tag of the content.
     pub(super) etag: Option<String>,
-    /// Date of the content as the server wrote it.
+    /// Header `Last-Modified` of the content, unchanged.
     pub(super) last_modified: Option<String>,
-    /// Requests in a row that brought nothing but a problem.
+    /// Number of failed requests in a row.
     #[serde(default)]
     pub(super) failures: u32,
-    /// Reason why the last request brought nothing.
+    /// Reason why the last request failed.
     pub(super) problem: Option<FetchProblem>,
 }
 
-/// Reason why the index of a library cannot be used. It stays unchanged on disk.
+/// Reason why the index of a library cannot be used. The file stays unchanged.
 #[derive(Debug, thiserror::Error)]
 pub enum IndexError {
     #[error("the index of the elements cannot be used: {source}: {}", path.display())]
     Disk { source: io::Error, path: PathBuf },
-    /// The index is not valid TOML, nor is the one before it.
+    /// Neither the index nor the previous one is valid TOML.
     #[error("the index of the elements cannot be read: {source}: {}", path.display())]
     Syntax {
-        /// Error with its place in the text.
+        /// Syntax error with its place in the text.
         source: Box<toml::de::Error>,
         path: PathBuf,
     },
@@ -69,7 +69,7 @@ pub enum IndexError {
 }
 
 impl Record {
-    /// Time of the last attempt, if it reached a server.
+    /// Returns the time of the last attempt, if it reached a server.
     pub(super) fn asked_at(&self) -> Option<Timestamp> {
         let is_unasked = self.problem.as_ref().is_some_and(FetchProblem::is_before_request);
         (!is_unasked).then_some(self.attempted_at)
@@ -83,7 +83,7 @@ impl Default for Index {
 }
 
 impl Index {
-    /// Reads the index in `folder`, or the one before it if it is damaged.
+    /// Reads the index in `folder`, or the previous one if the index is damaged.
     pub(super) fn load(folder: &Path) -> Result<Self, IndexError> {
         let path = folder.join("index.toml");
         match Self::read(&path) {
@@ -117,8 +117,8 @@ impl Index {
             .map_err(|source| IndexError::Disk { source, path })
     }
 
-    /// Writes the record of `url` into the index in `folder`, and takes over the other records from
-    /// there: another process may have changed them.
+    /// Writes the record of `url` into the index in `folder`. Adopts the other records from the
+    /// file, because another process may have changed them.
     pub(super) fn save_record(&mut self, url: &str, folder: &Path) -> Result<(), IndexError> {
         let lock = Lock::wait(folder, "index.lock");
         let mut index = Self::load(folder)?;
@@ -135,7 +135,8 @@ impl Index {
         self.address.get(url)
     }
 
-    /// Record of `url`, made new if necessary, for a request at `now` for the source `name`.
+    /// Returns the record of `url`. If there is none, adds one for a request at `now` for the
+    /// source `name`.
     pub(super) fn entry(&mut self, url: &str, name: &str, now: Timestamp) -> &mut Record {
         let file = self.unused_file(name);
         self.address.entry(url.to_owned()).or_insert(Record {
@@ -150,7 +151,7 @@ impl Index {
         })
     }
 
-    /// A file name like `name` that no address uses yet.
+    /// Returns a file name like `name` that no address uses yet.
     fn unused_file(&self, name: &str) -> String {
         let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '-' };
         let stem: String = name.to_lowercase().chars().map(plain).take(MAX_FILE_CHARS).collect();

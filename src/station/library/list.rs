@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{orbit::Source, whole_file};
 
-/// Version that this program writes. A file of a later version is left alone.
+/// Version that this program writes. Azel leaves a file of a later version unchanged.
 const VERSION: u32 = 1;
 
 /// Reason why the list of sources cannot be used or written. The file stays unchanged.
@@ -19,7 +19,7 @@ pub enum SourcesError {
     Disk { source: io::Error, path: PathBuf },
     #[error("the list of element sources cannot be read: {source}: {}", path.display())]
     Syntax {
-        /// Error with its place in the text.
+        /// Syntax error with its place in the text.
         source: Box<toml::de::Error>,
         path: PathBuf,
     },
@@ -42,9 +42,8 @@ fn this_version() -> u32 {
     VERSION
 }
 
-/// Reads the sources at `path`; none if there is no file. Entries that `check_source`
-/// refuses are kept: no server is ever asked at such an address, and the operator sees
-/// them and may remove them.
+/// Reads the sources at `path`; none if there is no file. Keeps entries that `check_source`
+/// refuses: Azel asks no server at such an address, and the operator can remove the entry.
 pub fn load_sources(path: &Path) -> Result<Vec<Source>, SourcesError> {
     let text = match fs::read_to_string(path) {
         Ok(text) => text,
@@ -65,8 +64,7 @@ pub fn load_sources(path: &Path) -> Result<Vec<Source>, SourcesError> {
     Ok(file.source)
 }
 
-/// Replaces the list at `path`. The previous file is kept beside it with the ending
-/// `.old`.
+/// Replaces the list at `path`, and keeps the previous file beside it with the ending `.old`.
 pub fn save_sources(sources: &[Source], path: &Path) -> Result<(), SourcesError> {
     let file = File { version: VERSION, source: sources.to_vec() };
     let text = toml::to_string_pretty(&file)?;

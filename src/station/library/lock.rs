@@ -8,12 +8,12 @@ use std::{
     time::Duration,
 };
 
-/// Pause between two tries to take a lock.
+/// Pause between two attempts to take a lock.
 const RETRY: Duration = Duration::from_millis(10);
-/// Tries to take a lock that its owner releases at once.
+/// Max number of attempts to take a lock that its owner releases at once.
 const MAX_TRIES: usize = 100;
 
-/// A lock, until it is dropped or its process ends.
+/// Lock between processes; released when dropped or when its process ends.
 #[derive(Debug)]
 pub(super) struct Lock {
     file: File,
@@ -33,13 +33,13 @@ impl Lock {
         }
     }
 
-    /// The locked file.
+    /// Returns the locked file.
     pub(super) fn file(&mut self) -> &mut File {
         &mut self.file
     }
 
-    /// Takes a lock that every owner releases at once. Returns `None` after a second, or where no
-    /// lock can be made.
+    /// Takes a lock that every owner releases at once. Returns `None` after a second, or if no lock
+    /// can be made.
     pub(super) fn wait(folder: &Path, name: &str) -> Option<Self> {
         for _ in 0..MAX_TRIES {
             match Self::try_take(folder, name) {

@@ -1,8 +1,8 @@
 //! Elements from Space-Track: a log-in, one query, and the log-out.
 //!
-//! Source: the API documentation of www.space-track.org. It allows less than 30 requests a minute
-//! and 300 an hour of one account, and one query of the class `gp` an hour. It answers 200 to a
-//! log-in that it refuses, with the reason as JSON. Accounts that break the limits are closed.
+//! Source: the API documentation of www.space-track.org. An account may make less than 30 requests
+//! a minute and 300 an hour, and one query of the class `gp` an hour. Space-Track answers a refused
+//! log-in with 200 and the reason as JSON. It closes accounts that break the limits.
 
 use std::{fmt, sync::Arc};
 
@@ -25,24 +25,24 @@ use crate::{
 };
 const SERVER: &str = "https://www.space-track.org";
 
-/// Objects that one query names. With more of them the query asks for all objects.
+/// Max number of objects that a query names. With more objects, Azel asks for all.
 const MAX_NUMBERS: usize = 500;
-/// Minimum time between two queries, with or without the operator.
+/// Min time between two queries, also for the operator.
 const QUERY_PAUSE: SignedDuration = SignedDuration::from_hours(1);
-/// Minimum time between two log-ins. An attempt without a query is a log-in alone, so that log-ins
-/// make at most 4 requests a minute and 240 an hour. Query and log-out add 2 an hour.
+/// Min time between two log-ins. An attempt without a query is a single log-in, so log-ins make at
+/// most 4 requests a minute and 240 an hour. Query and log-out add 2 an hour.
 pub const LOG_IN_PAUSE: SignedDuration = SignedDuration::from_secs(15);
-/// Maximum size of an answer that reports an error, bytes.
+/// Max size of an answer that reports an error, bytes.
 const MAX_ERROR_BYTES: u64 = 64 << 10;
-/// Maximum length of a reason of the server, characters.
+/// Max length of a reason that the server gives, characters.
 const MAX_REASON_CHARS: usize = 200;
 
-/// Passwords of log-in names.
+/// Store of passwords by log-in name.
 pub trait PasswordStore: Send + Sync {
-    /// Returns the password of `user`. It may wait for the operator's keyring.
+    /// Returns the password of `user`. May wait for the operator's keyring.
     fn get(&self, user: &str) -> Result<Secret, FetchProblem>;
 
-    /// Notes that the server accepted the password. Called after the log-out.
+    /// Notes that the server accepted the password. Azel calls this after the log-out.
     fn accepted(&self, _user: &str, _password: &Secret) {}
 
     /// Notes that the server refused the log-in.
@@ -69,13 +69,13 @@ impl SpaceTrackAccess {
         Self { server: SERVER.to_owned(), numbers, passwords }
     }
 
-    /// Asks another server, for tests. Like all addresses it must be `https` or on this computer.
+    /// Sets another server, for tests. Its address must be `https` or on this computer.
     #[must_use]
     pub fn with_server(self, server: &str) -> Self {
         Self { server: server.to_owned(), ..self }
     }
 
-    /// Address of the server.
+    /// Returns the address of the server.
     pub(super) fn server(&self) -> &str {
         &self.server
     }
@@ -91,26 +91,26 @@ impl fmt::Debug for SpaceTrackAccess {
     }
 }
 
-/// The key of an account in the index of the library.
+/// Returns the key of an account in the index of the library.
 pub(super) fn key(user: &str) -> String {
     format!("{SPACE_TRACK_HOST}/{}", log_in_key(user))
 }
 
-/// Limits that the requests of `record` have begun.
+/// Returns the limits that the requests of `record` started.
 pub(super) fn limits(record: &Record) -> Vec<RequestLimit> {
     let log_in = record.asked_at().map(|time| RequestLimit { time, pause: LOG_IN_PAUSE });
     let query = record.queried_at.map(|time| RequestLimit { time, pause: QUERY_PAUSE });
     log_in.into_iter().chain(query).collect()
 }
 
-/// A request that is recorded before it is sent.
+/// Request that Azel records before sending it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Step {
     LogIn,
     Query,
 }
 
-/// A session that has not begun.
+/// Visit to Space-Track that has not begun.
 pub(super) struct Visit<'a> {
     pub(super) access: &'a SpaceTrackAccess,
     pub(super) agent: Agent,
@@ -119,7 +119,7 @@ pub(super) struct Visit<'a> {
 
 impl Visit<'_> {
     /// Logs in as `user`, asks for the objects once, and logs out. Calls `record` before the log-in
-    /// and before the query, and does not send a request that is not recorded.
+    /// and before the query, and sends only recorded requests.
     pub(super) fn run(
         &self,
         user: &str,
@@ -136,7 +136,7 @@ impl Visit<'_> {
             }
         })?;
         let answer = record(Step::Query).and_then(|()| self.query(&cookie));
-        // The server ends the session by itself some time later.
+        // If the log-out fails, the server ends the session some time later.
         let _ = self.get("/ajaxauth/logout", &cookie);
         self.access.passwords.accepted(user, &password);
         answer
@@ -155,7 +155,7 @@ impl Visit<'_> {
             _ => refusal(response).or(Some(FetchProblem::Answer(status))),
         };
         match problem {
-            // The answer to a log-in could repeat it.
+            // Drop the reason: the answer to a log-in could contain the password.
             Some(FetchProblem::Refused(text)) if text.contains(password.reveal()) => {
                 Err(FetchProblem::Answer(status))
             }
@@ -184,8 +184,8 @@ impl Visit<'_> {
     }
 }
 
-/// The newest elements of these objects; those of all objects of the last 30 days if the address
-/// would be too long.
+/// Returns the path of a query for the newest elements of these objects. If the address would be
+/// too long, the query asks for all objects of the last 30 days.
 fn query_path(numbers: &[u32]) -> String {
     let objects = if numbers.len() > MAX_NUMBERS {
         "decay_date/null-val/EPOCH/%3Enow-30".to_owned()
@@ -196,7 +196,7 @@ fn query_path(numbers: &[u32]) -> String {
     format!("/basicspacedata/query/class/gp/{objects}/orderby/NORAD_CAT_ID/format/json")
 }
 
-/// The cookies that an answer sets, as the next request sends them.
+/// Returns the cookies of an answer in the form of a request header.
 fn cookie(response: &Response<Body>) -> Option<HeaderValue> {
     let set = response.headers().get_all(header::SET_COOKIE).iter();
     let pairs: Vec<&str> = set
@@ -209,13 +209,13 @@ fn cookie(response: &Response<Body>) -> Option<HeaderValue> {
     Some(value)
 }
 
-/// The reason in a short answer, if it is one.
+/// Returns the reason in a short answer, if it has one.
 fn refusal(response: Response<Body>) -> Option<FetchProblem> {
     let body = read_limited(response.into_body().into_reader(), MAX_ERROR_BYTES).ok()?;
     reason(&body)
 }
 
-/// An answer in place of elements.
+/// Answer with a reason in place of elements.
 #[derive(Deserialize)]
 struct Reason {
     error: Option<String>,
@@ -224,7 +224,7 @@ struct Reason {
 }
 
 fn reason(body: &[u8]) -> Option<FetchProblem> {
-    // A list of elements does not begin like this, and is not parsed twice.
+    // A list of elements never begins with `{`, so it is not parsed twice.
     if body.trim_ascii_start().first() != Some(&b'{') {
         return None;
     }

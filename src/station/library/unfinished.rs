@@ -1,9 +1,9 @@
-//! Sources that are set aside because reading them ended the program, in a small file of the
+//! Sources that Azel sets aside because reading them ended the program, in a small file of the
 //! library.
 //!
-//! The source that is being read stands in a file of its own, which its reader locks. A source
-//! that is found there by the next one to lock it ended its reader, and would end the program
-//! again: it is set aside until the operator asks for it.
+//! The reader locks a second file and writes the source there while it reads. If a later reader
+//! finds a source in that file, this source ended its reader and would end the program again. Azel
+//! sets it aside until the operator asks for it.
 
 use std::{
     fs::{self, File},
@@ -41,7 +41,7 @@ impl SetAside {
         Self { path, list: list.unwrap_or_default() }
     }
 
-    /// Returns `true` if `source` is set aside with its present settings.
+    /// Returns `true` if `source` is set aside with its current settings.
     pub(super) fn contains(&self, source: &Source) -> bool {
         self.list.source.contains(source)
     }
@@ -53,7 +53,7 @@ impl SetAside {
         self.save()
     }
 
-    /// Removes the sources named in `but`, and those that are no longer in `list`.
+    /// Removes the sources named in `except_sources`, and those that are no longer in `list`.
     pub(super) fn keep(&mut self, list: &[Source], except_sources: &[String]) {
         let before = self.list.source.len();
         self.list
@@ -73,8 +73,8 @@ impl SetAside {
     }
 }
 
-/// Note of the source that this program is reading. It is empty while another program reads, which
-/// is rare: a source that ends this program in that time is not noticed.
+/// Note of the source that this program is reading. It stays unused while another program reads; a
+/// source that ends this program then goes unnoticed, which is rare.
 #[derive(Debug)]
 pub(super) struct Reading {
     path: PathBuf,
@@ -82,7 +82,7 @@ pub(super) struct Reading {
 }
 
 impl Reading {
-    /// Begins to read in `folder`. A source that an earlier program did not finish is added to
+    /// Begins to read in `folder`. Adds a source that an earlier program did not finish to
     /// `set_aside`.
     pub(super) fn begin(folder: &Path, set_aside: &mut SetAside) -> Self {
         let path = folder.join(READING);
@@ -133,7 +133,7 @@ fn parsed<T: DeserializeOwned>(text: &str) -> Option<T> {
     toml::from_str(text).ok()
 }
 
-/// An error is logged alone: a full disk must not keep the elements from being read.
+/// Logs an error but does not return it: a full disk must not prevent reading the elements.
 fn warn(path: &Path, noted: io::Result<()>) {
     if let Err(error) = noted {
         tracing::warn!(%error, path = %path.display(), "what is read is not noted");
@@ -152,7 +152,7 @@ mod tests {
         (set_aside, reading)
     }
 
-    /// Leaves `folder` as a program that ends while it reads `source`.
+    /// Leaves `folder` like a program that ends while it reads `source`.
     fn end_in(folder: &Path, source: &Source) {
         let (_, mut reading) = begin(folder);
         let ends = || panic!("on purpose");

@@ -1,4 +1,4 @@
-//! Simulated units in memory, set up as the antennas of a station are.
+//! Simulated units in memory, set up like the antennas of a station.
 
 use std::{collections::BTreeMap, ops::RangeInclusive, sync::Arc};
 
@@ -24,7 +24,7 @@ use crate::{
     station::{Antenna, Mount},
 };
 
-/// Properties that the units of a station have in common.
+/// Common properties of a station's units.
 pub struct Surroundings<'a> {
     pub site: Site,
     pub clock: Clock,
@@ -36,13 +36,13 @@ pub struct Surroundings<'a> {
     pub seed: u64,
 }
 
-/// A unit as `antenna` has it, which stands at the park position. Where the antenna leaves open which
-/// file of elements its unit uses, it is told.
+/// Constructor of a simulated unit for `antenna`, which starts at the park position. It enters the
+/// unit's element file in `antenna` if none is set.
 pub(super) type Make = fn(&mut Antenna, &Surroundings<'_>) -> Arc<dyn InMemory>;
 
 pub(super) fn satrak(antenna: &mut Antenna, surroundings: &Surroundings<'_>) -> Arc<dyn InMemory> {
     if antenna.connection.text(&ELEMENT_FILE).is_empty() {
-        // Cannot fail: it accepts any text.
+        // `put` cannot fail: the setting accepts any text.
         antenna.connection.put(&ELEMENT_FILE, satrak::BUNDLED_FILE).ok();
     }
     let file = antenna.connection.text(&ELEMENT_FILE).to_owned();
@@ -112,8 +112,8 @@ fn whole(degrees: f64) -> WholeDegrees {
     WholeDegrees::nearest(degrees.clamp(0.0, 360.0)).unwrap_or(WholeDegrees::saturating(0))
 }
 
-/// The ends of a travel on a circle of 0 to 360 degrees, the counter-clockwise one first; equal ones
-/// leave a whole turn.
+/// Returns the ends of a travel on a circle of 0 to 360 degrees, the counter-clockwise end first.
+/// Equal ends mean a whole turn.
 fn ends_of_circle((from_deg, to_deg): (f64, f64)) -> (WholeDegrees, WholeDegrees) {
     let start = from_deg.rem_euclid(360.0);
     let span = (to_deg - from_deg).min(360.0);
@@ -150,7 +150,7 @@ pub(super) fn rc2000c(antenna: &mut Antenna, surroundings: &Surroundings<'_>) ->
     Arc::new(unit)
 }
 
-/// An axis whose sensor has these points; `None` where it is not calibrated.
+/// Returns an axis whose sensor has these points; `None` for an uncalibrated axis.
 fn counted(
     points: &[CountPoint],
     (from_deg, to_deg): (f64, f64),

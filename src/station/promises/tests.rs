@@ -9,7 +9,7 @@ fn holds(text: &str) -> FileState {
     FileState::Holds(text.to_owned())
 }
 
-/// A disk that waits at each step until the test lets it go on.
+/// Disk that waits at each step until the test releases it.
 pub(crate) struct SlowDisk {
     begun: mpsc::Receiver<FileState>,
     go_on: mpsc::SyncSender<()>,
@@ -22,7 +22,7 @@ impl SlowDisk {
         let released = Mutex::new(released);
         let promises = Promises::new(move |path, state| {
             begin.send(state.clone()).unwrap();
-            // An error means that the test lets everything go on.
+            // An error means that the test dropped the sender and releases all steps.
             let _ = released.lock().unwrap().recv();
             to_disk(path, state)
         });
@@ -39,7 +39,7 @@ impl SlowDisk {
     }
 }
 
-/// A disk that is full while `is_full` says so.
+/// Returns promises on a disk that is full while `is_full` is `true`.
 pub(crate) fn full_disk(is_full: &Arc<AtomicBool>) -> Promises {
     let is_full = Arc::clone(is_full);
     Promises::new(move |path, state| match state {
@@ -79,7 +79,7 @@ fn a_late_removal_takes_no_newer_promise_away() {
     let (promises, disk) = SlowDisk::new();
     promises.put(&path, FileState::Absent);
     assert_eq!(disk.begun(), FileState::Absent);
-    // Only the newest of several requests is written.
+    // The disk receives only the newest of several pending requests.
     for text in ["first", "second"] {
         promises.put(&path, holds(text));
     }

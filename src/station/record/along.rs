@@ -1,4 +1,4 @@
-//! The passes of a record along the time: their times, and the way from one to the next.
+//! Passes of a record in order of time: their times, and the neighbours of a pass.
 
 use std::path::Path;
 
@@ -15,17 +15,17 @@ use crate::{
     orbit::Propagator,
 };
 
-/// From where the next pass is sought, or the one before.
+/// Starting point of a search for the next or previous pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Neighbour {
-    /// From the pass with this number. The same pass, tracked by another antenna, is passed over.
+    /// Pass with this number. The search skips the same pass of another antenna.
     Pass(i64),
-    /// From a moment. A pass under way is the next one.
+    /// Time of the start. A pass under way counts as the next one.
     Moment(Timestamp),
 }
 
-/// The times of the passes of the record at `path` between two times. Reports without a site are of
-/// an antenna at `site`.
+/// Returns the times of the passes between two times in the record at `path`. Reports without a
+/// site belong to an antenna at `site`.
 pub fn times_between(
     path: &Path,
     start: Timestamp,
@@ -47,13 +47,13 @@ pub fn times_between(
     Ok(found.iter().map(|pass| times_of(pass, site)).collect())
 }
 
-/// The times of the pass with this number.
+/// Returns the times of the pass with this number.
 pub fn times_of_pass(path: &Path, id: i64, site: Site) -> Result<Option<PassTimes>, RecordError> {
     let passes = Passes::open(path, site)?;
     Ok(passes.pass(id)?.map(|pass| times_of(&pass, site)))
 }
 
-/// The pass after `reference`, or before it, of any antenna.
+/// Returns the pass after or before `reference`, of any antenna.
 pub fn neighbour(
     path: &Path,
     reference: Neighbour,

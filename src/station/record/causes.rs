@@ -1,4 +1,4 @@
-//! Causes of the errors of several passes together.
+//! Common causes of the errors of several passes.
 
 use std::{ops::RangeInclusive, path::Path};
 
@@ -13,14 +13,14 @@ use crate::{
     station::{AntennaId, Mount},
 };
 
-/// Most passes that are taken together.
+/// Max number of passes that are judged together.
 const PASSES: u32 = 30;
-/// Time between two positions that are used, seconds.
+/// Min time between two used positions, seconds.
 const APART_S: f64 = 5.0;
 
-/// Finds the causes of the errors of the newest passes of `antenna`, on this mount, in the record
-/// at `path` that end `span` a time. Other elements, which are each satellite's own, are left to
-/// the single passes. Reports without a site are of an antenna at `site`.
+/// Finds the causes of the errors in `antenna`'s newest passes on this mount that end within
+/// `span`. Reads the record at `path`. Does not consider other elements, which belong to single
+/// passes. Reports without a site belong to an antenna at `site`.
 pub fn explain_passes(
     path: &Path,
     antenna: AntennaId,
@@ -65,7 +65,7 @@ pub fn explain_passes(
     })
 }
 
-/// Positions in which the antenna should have been on the satellite.
+/// Returns positions at which the antenna should have been on the satellite.
 fn thinned(report: &RecordedReport, points: &[MeasuredPosition]) -> Vec<MeasuredPosition> {
     let is_judged = |point: &&MeasuredPosition| report.report.judges(point.time, report.end);
     apart(points.iter().filter(is_judged).copied(), APART_S, |point| point.time).collect()

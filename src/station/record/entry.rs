@@ -1,22 +1,23 @@
-//! Entries that the station hands to its record.
+//! Entries that the station writes to its record.
 
 use serde::Serialize;
 use serde_json::Value;
 
 use crate::{clock::Moment, station::AntennaId};
 
-/// An entry of the record, other than measured positions and lines on a link.
+/// Entry of the record, other than measured positions and lines on a link.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Entry {
     pub moment: Moment,
-    /// `None` where it concerns the whole station.
+    /// Antenna of the entry; `None` for the whole station.
     pub antenna: Option<AntennaId>,
     pub kind: Kind,
     pub data: Value,
 }
 
 impl Entry {
-    /// An entry with `data` as JSON. Secrets have no JSON of their own, so none gets in.
+    /// Creates an entry with `data` as JSON. A secret serialises to `null`, so none gets into the
+    /// record.
     pub fn new(
         moment: Moment,
         antenna: Option<AntennaId>,
@@ -34,35 +35,35 @@ impl Entry {
 /// Subject of an entry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Kind {
-    /// The program has started or ended.
+    /// Start or end of the program.
     Run,
-    /// The station file, or a part of it, has changed.
+    /// Change of the station file.
     Station,
-    /// The clock of this computer was set, or is kept by another service, or by none.
+    /// Step or other synchronisation of this computer's clock.
     Clock,
-    /// A command to the station or an antenna, and who gave it.
+    /// Command to the station or an antenna, with its origin.
     Command,
-    /// STOP, and who gave it.
+    /// STOP, with its origin.
     Stop,
-    /// A request that the gate or the unit has refused, or the unit has not answered.
+    /// Request that the gate or the unit refused, or that the unit did not answer.
     Refusal,
-    /// The link of an antenna came or went.
+    /// Start or loss of an antenna's link.
     Link,
-    /// The intent of an antenna, its track, its checks, its automatic operation.
+    /// Change of an antenna's intent, track, checks or automatic operation.
     State,
-    /// A change of the settings of a unit, and its outcome.
+    /// Change of a unit's settings, with its outcome.
     Setting,
-    /// Another event of an antenna.
+    /// Other event of an antenna.
     Event,
-    /// An alarm has come, was seen, or is over.
+    /// Start, acknowledgement or end of an alarm.
     Alarm,
-    /// The schedule has changed.
+    /// Change of the schedule.
     Schedule,
-    /// The outcome of a pass of the schedule, or an event of automatic operation.
+    /// Outcome of a scheduled pass, or event of automatic operation.
     Day,
-    /// The operator has entered a peak of the noise of the Sun or the Moon, or removed one.
+    /// Peak of the noise of the Sun or the Moon that the operator entered or removed.
     Peak,
-    /// Something could not be recorded.
+    /// Gap in which something could not be recorded.
     Gap,
 }
 
@@ -85,7 +86,7 @@ impl Kind {
         Self::Gap,
     ];
 
-    /// Its word in the record.
+    /// Returns the name of the kind in the record.
     pub fn word(self) -> &'static str {
         match self {
             Self::Run => "run",

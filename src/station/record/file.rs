@@ -1,4 +1,4 @@
-//! The SQLite file: its schema, and how it is opened.
+//! SQLite file of the record: its schema and its opening.
 
 use std::{fs, path::Path, time::Duration};
 
@@ -9,23 +9,24 @@ use super::RecordError;
 
 /// Version of the schema (`PRAGMA user_version`).
 pub(super) const VERSION: i64 = 2;
-/// Marks the file as a record (`PRAGMA application_id`): "Azel" in ASCII.
+/// Id of a record file (`PRAGMA application_id`): "Azel" in ASCII.
 const APPLICATION: i64 = 0x417a_656c;
-/// How long a reader and the writer wait for each other.
+/// Timeout for a reader or the writer that waits for the other.
 const BUSY: Duration = Duration::from_secs(2);
-/// The write-ahead log is cut to this once all readers have let it go.
+/// Size to which the write-ahead log is cut once no reader uses it, bytes.
 const LOG_BYTES: i64 = 16 << 20;
-/// Angles are kept as whole numbers of this part of a degree.
+/// Stored units per degree; angles are stored as whole numbers.
 pub(super) const PER_DEGREE: f64 = 10_000.0;
 
-/// The time in `column` of a row. A damaged record may hold one that no calendar has.
+/// Returns the time in `column` of a row. Fails on a time beyond the calendar, which a damaged
+/// record may contain.
 pub(in crate::record) fn time_of(column: usize, utc_us: i64) -> rusqlite::Result<Timestamp> {
     Timestamp::from_microsecond(utc_us)
         .map_err(|_| rusqlite::Error::IntegralValueOutOfRange(column, utc_us))
 }
 
-/// Positions and frames lie in order of antenna and time, and have no further index: a day of
-/// three antennas holds millions of them.
+/// Tables of version 1. Positions and frames are stored in order of antenna and time, without
+/// another index: a day of three antennas has millions of them.
 const SCHEMA: &str = "
 CREATE TABLE run (
     id INTEGER PRIMARY KEY,
@@ -111,7 +112,7 @@ CREATE VIEW events AS SELECT
     FROM event;
 ";
 
-/// The film of what the station showed. New in version 2.
+/// Tables of the film, new in version 2.
 const FILM: &str = "
 CREATE TABLE reel (
     run INTEGER NOT NULL,
@@ -133,16 +134,15 @@ CREATE TABLE part (
 CREATE INDEX part_time ON part (until_us);
 ";
 
-/// Entries that are sought by their kind, which few others have. A record of an older program gets
-/// this as well.
+/// Indexes for rare kinds of entries. Azel also adds them to a record of an older program.
 const FEW: &str = "
 CREATE INDEX IF NOT EXISTS event_day ON event (utc_us) WHERE kind = 'day';
 CREATE INDEX IF NOT EXISTS event_peak ON event (utc_us) WHERE kind = 'peak';
 CREATE INDEX IF NOT EXISTS event_gap ON event (utc_us) WHERE kind = 'gap';
 ";
 
-/// The clock of the computer when it was trusted last to tell what is old. A record of an older program
-/// gets this as well, with the time of its newest entry.
+/// Table with the last trusted time of this computer's clock, for deleting old parts. Azel also
+/// adds it to a record of an older program, with the time of the newest entry.
 const CLOCK: &str = "
 CREATE TABLE clock (
     id INTEGER PRIMARY KEY CHECK (id = 0), trusted_us INTEGER NOT NULL, doubted_us INTEGER
@@ -150,7 +150,7 @@ CREATE TABLE clock (
 INSERT INTO clock SELECT 0, utc_us, NULL FROM event ORDER BY utc_us DESC LIMIT 1;
 ";
 
-/// Opens the record at `path` to write to it; makes it where there is none.
+/// Opens the record at `path` for writing; creates a missing file.
 pub(super) fn open(path: &Path) -> Result<Connection, RecordError> {
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder)?;
@@ -159,14 +159,14 @@ pub(super) fn open(path: &Path) -> Result<Connection, RecordError> {
         | OpenFlags::SQLITE_OPEN_CREATE
         | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     let mut db = Connection::open_with_flags(path, flags)?;
-    // It tells where antennas are and what was done with them: for its owner alone.
+    // Only the owner may read where the antennas are and what they did.
     #[cfg(unix)]
     fs::set_permissions(path, std::os::unix::fs::PermissionsExt::from_mode(0o600))?;
     db.busy_timeout(BUSY)?;
     let version = version(&db)?;
     match version {
         0 => {
-            // Before the first table: it cannot be changed later.
+            // `auto_vacuum` cannot change after the first table, so set it now.
             db.pragma_update(None, "auto_vacuum", "INCREMENTAL")?;
             let of_new = db.transaction()?;
             of_new.execute_batch(SCHEMA)?;
@@ -190,14 +190,14 @@ pub(super) fn open(path: &Path) -> Result<Connection, RecordError> {
         of_old.execute_batch(CLOCK)?;
         of_old.commit()?;
     }
-    // A reader disturbs no writer, and what was committed outlasts a loss of power.
+    // With these settings, readers do not disturb the writer, and commits survive a loss of power.
     db.pragma_update(None, "journal_mode", "WAL")?;
     db.pragma_update(None, "synchronous", "FULL")?;
     db.pragma_update(None, "journal_size_limit", LOG_BYTES)?;
     Ok(db)
 }
 
-/// Opens the record at `path` to read it alone, also while it is written.
+/// Opens the record at `path` for reading only, also during writes.
 pub(super) fn open_to_read(path: &Path) -> Result<Connection, RecordError> {
     let db = Connection::open_with_flags(path, OpenFlags::SQLITE_OPEN_READ_ONLY)?;
     db.busy_timeout(BUSY)?;
@@ -208,7 +208,7 @@ pub(super) fn open_to_read(path: &Path) -> Result<Connection, RecordError> {
     }
 }
 
-/// Version of the schema; 0 for an empty file.
+/// Returns the version of the schema; 0 for an empty file.
 fn version(db: &Connection) -> Result<i64, RecordError> {
     let number = |name| db.pragma_query_value(None, name, |row| row.get::<_, i64>(0));
     let (application, version) = (number("application_id")?, number("user_version")?);

@@ -1,7 +1,8 @@
-//! The film of a station: what it showed, picture by picture, as it was published.
+//! Film of a station: its published snapshots, picture by picture.
 //!
-//! A picture is kept as what has changed since the one before. A reel is a minute of them and begins
-//! with a whole one. Large parts that seldom change are kept once, and pictures refer to them.
+//! A picture is stored as its changes from the previous picture. A reel covers one minute and
+//! begins with a whole picture. Large parts that seldom change are stored once, and pictures refer
+//! to them.
 
 mod camera;
 mod patch;
@@ -21,21 +22,21 @@ use crate::clock::Moment;
 pub trait Picture: Send + Sync {
     fn moment(&self) -> Moment;
 
-    /// All of it as JSON, with the numbers of its large parts in their places.
+    /// Returns the whole picture as JSON, with numbers in place of its large parts.
     fn draw(&self, parts: &mut Parts) -> serde_json::Result<Value>;
 }
 
-/// The large parts of pictures, each kept once under a number for as long as it is shown.
+/// Large parts of pictures. Each is stored once, under a number, while pictures show it.
 #[derive(Default)]
 pub struct Parts {
-    /// By address, which nothing else has while the part is held here.
+    /// Parts by address, which stays unique while the part is held here.
     by_address: HashMap<usize, StoredPart>,
     last: i64,
-    /// Parts that are not written yet.
+    /// Parts that are not on the disk yet.
     new: Vec<(i64, Vec<u8>)>,
-    /// Values at these places of the last picture.
+    /// Values at these places of the previous picture.
     placed: HashMap<String, Placed>,
-    /// Places of the present picture at which the same stands.
+    /// Places at which the current picture has the value of the previous one.
     same: Vec<String>,
 }
 
@@ -45,16 +46,16 @@ struct StoredPart {
     _held: Arc<dyn Any + Send + Sync>,
 }
 
-/// Value at a place of the last picture.
+/// Value at a place of the previous picture.
 struct Placed {
     address: usize,
     is_shown: bool,
-    /// Keeps the address from being reused.
+    /// Value that is held to keep its address unique.
     _held: Box<dyn Any + Send + Sync>,
 }
 
 impl Parts {
-    /// The number of a part.
+    /// Returns the number of a part.
     pub fn number<T>(&mut self, part: &Arc<T>) -> serde_json::Result<i64>
     where
         T: Serialize + Send + Sync + 'static,
@@ -62,7 +63,7 @@ impl Parts {
         self.number_with(part, |part| serde_json::to_vec(part))
     }
 
-    /// The number of a part that is written by `write`.
+    /// Returns the number of a part; `write` gives the content of a new part.
     pub fn number_with<T: Send + Sync + 'static>(
         &mut self,
         part: &Arc<T>,
@@ -81,8 +82,8 @@ impl Parts {
         Ok(self.last)
     }
 
-    /// Returns `true` if the last picture of the reel had the same at this place (a JSON pointer):
-    /// then it need not be drawn, and anything may stand there.
+    /// Returns `true` if the previous picture of the reel had this value at this place, a JSON
+    /// pointer. The caller may then draw any value there.
     pub fn is_same<T>(&mut self, place: String, part: &Arc<T>) -> bool
     where
         T: ?Sized + Send + Sync + 'static,
@@ -97,7 +98,7 @@ impl Parts {
         is_same
     }
 
-    /// Lets go of what the last picture does not show.
+    /// Drops parts and values that the last picture does not show.
     fn next_picture(&mut self) {
         self.by_address.retain(|_, part_entry| std::mem::take(&mut part_entry.is_shown));
         self.placed.retain(|_, placed| std::mem::take(&mut placed.is_shown));

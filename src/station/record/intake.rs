@@ -1,4 +1,4 @@
-//! Orders to the writer of the record, and the state that it shares with the recorder.
+//! Orders to the writer of the record, and state that the writer shares with the recorder.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, atomic::AtomicU64, mpsc};
 
@@ -10,45 +10,45 @@ use crate::{
     station::{AntennaId, Retention},
 };
 
-/// One order to the writer.
+/// Order to the writer.
 pub(super) enum Order {
     Entry(Box<Entry>),
     Pass(Box<PassNote>),
     Picture {
         picture: Arc<dyn Picture>,
-        /// There was no room for the one before.
+        /// `true` if the previous picture was dropped for lack of room.
         is_after_cut: bool,
     },
-    /// Write at once, then answer.
+    /// Request for an immediate write and an answer.
     Flush(mpsc::SyncSender<()>),
 }
 
-/// A session to be recorded.
+/// Session to record.
 pub struct RecordedSession {
-    /// When it began.
+    /// Start of the session.
     pub moment: Moment,
     pub antenna: AntennaId,
     /// Name of the antenna.
     pub name: String,
-    /// Key of its make.
+    /// Key of the antenna's make.
     pub make: &'static str,
     pub wire: WireLog,
     pub positions: PositionLog,
 }
 
-/// State that both ends share.
+/// State that recorder and writer share.
 pub(super) struct Shared {
     pub(super) status: Mutex<Status>,
-    /// Sessions that the writer does not know of yet.
+    /// Sessions that the writer has not taken yet.
     pub(super) begun: Mutex<Vec<RecordedSession>>,
     pub(super) keeping: Mutex<Retention>,
-    /// Entries for which there was no room.
+    /// Number of entries dropped for lack of room.
     pub(super) turned_away: AtomicU64,
-    /// Pictures for which there was no room.
+    /// Number of pictures dropped for lack of room.
     pub(super) not_filmed: AtomicU64,
 }
 
-/// Locks what both ends share. No code panics while it holds the lock.
+/// Locks shared state. No code panics while it holds this lock, so poisoning can be ignored.
 pub(super) fn locked<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
     shared.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,4 +1,4 @@
-//! How long the parts of the record are kept.
+//! Retention of the parts of a record.
 
 use std::time::Duration;
 
@@ -9,32 +9,31 @@ use crate::station::Retention;
 
 const DAY: i64 = 86_400_000_000;
 const DAY_US: f64 = DAY as f64;
-/// The Julian year.
+/// Length of the Julian year, days.
 const YEAR_D: f64 = 365.25;
-/// Span of one antenna's positions or frames that is removed at once, so that the writer goes on
-/// in between.
+/// Max span of an antenna's positions or frames per removal, microseconds. The writer continues
+/// between removals.
 const SLICE_US: i64 = 600_000_000;
-/// Rows of events that are removed at once.
+/// Max number of event rows per removal.
 const SLICE_ROWS: i64 = 2000;
-/// Reels, and parts, that are removed at once.
+/// Max number of reels, and of parts, per removal.
 const SLICE_FILM: i64 = 30;
 const MINUTE_US: i64 = 60_000_000;
-/// Empty pages that the file keeps: what comes next fills them.
+/// Number of empty pages that the file keeps for new data.
 const SPARE: i64 = 256;
-/// Pages that are given back to the disk at once.
+/// Max number of pages per return to the disk.
 const PAGES: i64 = 200;
 
-/// A start that comes later than this after what is known of the clock may have a wrong one.
+/// Max pause between runs, microseconds. After a longer one, the clock may be wrong.
 const LONGEST_PAUSE_US: i64 = 30 * DAY;
-/// The clock is noted again once it has gone on for so long.
+/// Time after which Azel notes the clock again, microseconds.
 const NOTED_EVERY_US: i64 = 3_600_000_000;
-/// A clock that was set, or that may be wrong, is trusted once the program has gone on for so long with
-/// it: a wrong one does not stay unseen.
+/// Run time after which Azel trusts a doubtful clock: the operator would have noticed a wrong one.
 pub(super) const TRUSTED_AFTER: Duration = Duration::from_hours(24);
 
-/// Returns `true` if the clock may tell what is old: it goes on from where it was trusted last, it has
-/// gone on for a day since it was doubted, from run to run, or this run has lasted `ran`. By a wrong
-/// clock everything could be old.
+/// Returns `true` if the clock may decide which data are old. The clock must continue from its last
+/// trusted time, have run for a day since it was doubted, also across runs, or this run must have
+/// lasted [`TRUSTED_AFTER`]. With a wrong clock, all data could seem old.
 pub(super) fn trusts(db: &Connection, now_us: i64, ran: Duration) -> Result<bool, RecordError> {
     let found = db
         .query_row("SELECT trusted_us, doubted_us FROM clock", [], |row| {
@@ -57,7 +56,7 @@ pub(super) fn trusts(db: &Connection, now_us: i64, ran: Duration) -> Result<bool
             return Ok(false);
         }
     }
-    // One that is behind removes too little at worst, but must not make the right one look wrong.
+    // A slow clock at worst removes too little, but must not make the right clock look wrong.
     let is_due = |ahead_us| ahead_us > NOTED_EVERY_US || is_long && ahead_us < -NOTED_EVERY_US;
     if ahead_us.is_none_or(is_due) {
         db.execute("INSERT OR REPLACE INTO clock VALUES (0, ?1, NULL)", [now_us])?;
@@ -65,7 +64,7 @@ pub(super) fn trusts(db: &Connection, now_us: i64, ran: Duration) -> Result<bool
     Ok(true)
 }
 
-/// Removes a slice of what is older than it is kept. Returns `true` if more may be left.
+/// Removes a slice of the data beyond its retention. Returns `true` if more may be left.
 pub(super) fn remove_old(
     db: &Connection,
     keeping: Retention,
@@ -106,7 +105,7 @@ pub(super) fn remove_old(
     let spare: i64 = db.pragma_query_value(None, "freelist_count", |row| row.get(0))?;
     if spare > SPARE {
         is_more = true;
-        // It gives a page back with each row.
+        // The statement returns one page for each row.
         let mut vacuum = db.prepare(&format!("PRAGMA incremental_vacuum({PAGES})"))?;
         let mut pages = vacuum.query([])?;
         while pages.next()?.is_some() {}
@@ -114,7 +113,7 @@ pub(super) fn remove_old(
     Ok(is_more)
 }
 
-/// Removes some reels that began before, and parts that none has shown since.
+/// Removes some reels that began before `before`, and parts that no reel has shown since.
 fn remove_film(db: &Connection, before: i64) -> Result<bool, RecordError> {
     let mut removed = 0;
     for (table, time) in [("reel", "from_us"), ("part", "until_us")] {
@@ -122,7 +121,7 @@ fn remove_film(db: &Connection, before: i64) -> Result<bool, RecordError> {
             "DELETE FROM {table} WHERE rowid IN \
              (SELECT rowid FROM {table} WHERE {time} < ?1 ORDER BY {time} LIMIT ?2)"
         );
-        // A reel shows its parts for a minute longer than they are known to be shown.
+        // A reel may show its parts for a minute longer than the record notes.
         let before = if table == "part" { before - 2 * MINUTE_US } else { before };
         removed += db.prepare_cached(&sql)?.execute(params![before, SLICE_FILM])?;
     }

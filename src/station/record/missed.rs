@@ -1,4 +1,4 @@
-//! Passes that automatic operation was to track, and that no antenna tracked.
+//! Passes that automatic operation was to track but that no antenna tracked.
 
 use std::path::Path;
 
@@ -12,12 +12,12 @@ use crate::{
     station::AntennaId,
 };
 
-/// An entry of the list of the day about a pass without a report.
+/// Entry of the list of the day about a pass without a report.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MissedEntry {
     /// Number of the entry.
     pub id: i64,
-    /// When the pass was over for the antenna.
+    /// End of the pass for the antenna.
     pub time: Timestamp,
     pub antenna: AntennaId,
     /// Name of the antenna at the time.
@@ -26,8 +26,8 @@ pub struct MissedEntry {
     pub flown: Value,
 }
 
-/// Returns the missed passes in the record at `path` that match `query` in the time of `page`, the
-/// newest first.
+/// Returns the missed passes in the record at `path` that match `query`, the newest first. They
+/// cover the same time as `page`.
 pub fn missed(
     path: &Path,
     query: &PassQuery,
@@ -36,11 +36,11 @@ pub fn missed(
     if matches!(query.kind, Some(ListedKind::Tracked(_))) {
         return Ok(Vec::new());
     }
-    // Older ones come with the older passes.
+    // Older missed passes appear together with the older passes.
     let is_whole = page.matching <= query.count;
     let start = page.passes.last().filter(|_| !is_whole).map(|pass| pass.report.end);
     let db = file::open_to_read(path)?;
-    // A pass with time in the beam and no report was tracked while nothing could be recorded.
+    // Skip passes with time in the beam: an antenna tracked them while nothing could be recorded.
     let mut statement = db.prepare(
         "SELECT id, utc_us, antenna, (SELECT name FROM antenna AS a WHERE a.id = e.antenna \
          ORDER BY since_us > e.utc_us, abs(since_us - e.utc_us) LIMIT 1), flown FROM \

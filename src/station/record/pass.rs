@@ -1,14 +1,14 @@
-//! A pass that an antenna tracked, as it is kept.
+//! Pass that an antenna tracked, in the form of the record.
 
 use crate::{
     contract::record::RecordedReport, plan::pass_report::MeasuredPosition, station::AntennaId,
 };
 
-/// A pass that an antenna has tracked, to be kept.
+/// Report of a tracked pass with its track, for the record.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PassNote {
     pub antenna: AntennaId,
     pub report: RecordedReport,
-    /// The track, about a point a second.
+    /// Track, about one point a second.
     pub points: Vec<MeasuredPosition>,
 }

@@ -1,4 +1,4 @@
-//! Passes of a record, as somebody looks back at them.
+//! Passes of a record for later viewing.
 
 use std::{
     ops::{Range, RangeInclusive},
@@ -27,21 +27,21 @@ use crate::{
     station::AntennaId,
 };
 
-/// Entries are shown from this long before the track began.
+/// Span of shown entries before the start of the track.
 const BEFORE: SignedDuration = SignedDuration::from_secs(300);
-/// Entries are shown to this long after LOS.
+/// Span of shown entries after LOS.
 const AFTER: SignedDuration = SignedDuration::from_secs(60);
-/// Longest pass that is looked for: rows are in order of LOS, so a search by AOS reads this much
+/// Max length of a found pass. Rows are in order of LOS, so a search by AOS reads this much
 /// further.
 pub(super) const LONGEST: SignedDuration = SignedDuration::from_hours(24);
-/// Time between two directions of the predicted path, seconds.
+/// Step of the predicted path, seconds.
 const STEP_S: f64 = 2.0;
-/// Kinds of entries that tell what happened in a pass.
+/// Kinds of entries that describe a pass.
 const SHOWN_KINDS: [Kind; 7] =
     [Kind::Command, Kind::Stop, Kind::Refusal, Kind::Link, Kind::Alarm, Kind::Day, Kind::Gap];
 
-/// The value of the column `verdict`; an empty text, which no row has, for passes that were not
-/// tracked.
+/// Returns the value of the column `verdict`. Passes that were not tracked give an empty text,
+/// which no row has.
 fn verdict_of(kind: ListedKind) -> &'static str {
     match kind {
         ListedKind::Tracked(verdict) => verdict.word(),
@@ -49,13 +49,13 @@ fn verdict_of(kind: ListedKind) -> &'static str {
     }
 }
 
-/// The passes that `query` finds in the record at `path`.
+/// Returns the passes that match `query` in the record at `path`.
 pub fn passes(path: &Path, query: &PassQuery) -> Result<PassPage, RecordError> {
     page(&file::open_to_read(path)?, query)
 }
 
-/// The passes that `query` finds in the record at `path` with their AOS `span` a time, all that can
-/// be read, in order of AOS. Reports without a site are of an antenna at `site`.
+/// Returns the readable passes that match `query` in the record at `path`, with their AOS in
+/// `span`, in order of AOS. Reports without a site belong to an antenna at `site`.
 pub fn passes_within(
     path: &Path,
     query: &PassQuery,
@@ -66,14 +66,14 @@ pub fn passes_within(
     passes.in_span(query, span)?.into_iter().map(|pass| passes.opened(pass)).collect()
 }
 
-/// The pass with this number, if the record at `path` has it. Reports without a site are of an
+/// Returns the pass with this number in the record at `path`. Reports without a site belong to an
 /// antenna at `site`.
 pub fn open_pass(path: &Path, id: i64, site: Site) -> Result<Option<OpenedPass>, RecordError> {
     let passes = Passes::open(path, site)?;
     passes.pass(id)?.map(|pass| passes.opened(pass)).transpose()
 }
 
-/// Where the antenna pointed, with its error from where it should have pointed.
+/// Returns the antenna's directions with their errors.
 fn track_of(
     flown: &[MeasuredPosition],
     propagator: &Propagator,
@@ -106,10 +106,10 @@ pub(super) fn path_of(propagator: &Propagator, site: Site, report: &RecordedRepo
     times.filter_map(sample).collect()
 }
 
-/// The passes of an open record.
+/// Passes of an open record.
 pub(super) struct Passes {
     db: Connection,
-    /// Where the antennas of reports without a site stand.
+    /// Site of the antennas in reports without a site.
     site: Site,
 }
 
@@ -117,7 +117,7 @@ pub(super) struct Passes {
 pub(super) const COLUMNS: &str = "id, antenna, (SELECT name FROM antenna AS a WHERE a.id = pass.antenna \
     ORDER BY since_us > pass.until_us, abs(since_us - pass.until_us) LIMIT 1), report";
 
-/// Condition of a query on a pass.
+/// SQL condition of a query for passes.
 const MATCHES: &str = "(:antenna IS NULL OR antenna = :antenna) \
     AND (:kind IS NULL OR verdict = :kind) \
     AND (instr(lower(name), lower(:text)) > 0 OR CAST(satellite AS TEXT) = :text \
@@ -128,12 +128,13 @@ impl Passes {
         Ok(Self { db: file::open_to_read(path)?, site })
     }
 
-    /// Where the antenna of a report stands. Reports without a site are older than refraction.
+    /// Returns the site of a report's antenna. Reports without a site are from before Azel modelled
+    /// refraction.
     pub(super) fn site_of(&self, report: &RecordedReport) -> Site {
         report.site.unwrap_or(self.site.airless())
     }
 
-    /// The newest passes of an antenna that end within `span` and can be read, the newest first.
+    /// Returns the newest readable passes of an antenna that end within `span`, the newest first.
     pub(super) fn newest(
         &self,
         antenna: AntennaId,
@@ -175,7 +176,7 @@ impl Passes {
         rows.next()?.map_or(Ok(None), read_pass)
     }
 
-    /// A pass with its track and what happened in it.
+    /// Returns a pass with its track and its entries.
     fn opened(&self, pass: RecordedPass) -> Result<OpenedPass, RecordError> {
         let report = &pass.report;
         let site = self.site_of(report);
@@ -200,8 +201,8 @@ impl Passes {
         Ok(OpenedPass { pass, track, path, entries })
     }
 
-    /// The gap that had begun by `time` and ended later. A gap is noted at its end, and no two of them
-    /// overlap.
+    /// Returns the gap that began before `time` and ended later. Azel notes a gap at its end, and
+    /// gaps do not overlap.
     fn gap_across(&self, time: Timestamp) -> Result<Option<Row>, RecordError> {
         let row_kinds = vec![RowKind::Entry(Kind::Gap)];
         let query = Query { start: Some(time), row_kinds, ..Query::default() };
@@ -209,8 +210,8 @@ impl Passes {
         Ok(next.filter(|gap| gap.gap_since().is_some_and(|start| start < time)))
     }
 
-    /// The measured track of a pass beside the one that led the antenna. Elements that cannot be
-    /// propagated give none.
+    /// Returns the measured track of a pass with the predicted track that controlled the antenna.
+    /// Empty if the elements cannot be propagated.
     pub(super) fn led_track(&self, pass: &RecordedPass) -> Result<Vec<TrackPoint>, RecordError> {
         let report = &pass.report;
         let Ok(propagator) = Propagator::new(&report.elements) else { return Ok(Vec::new()) };
@@ -237,7 +238,7 @@ impl Passes {
     }
 }
 
-/// The newest passes that `query` finds.
+/// Returns the newest passes that match `query`.
 fn page(db: &Connection, query: &PassQuery) -> Result<PassPage, RecordError> {
     let antenna = query.antenna.map(|antenna| antenna.0);
     let kind = query.kind.map(verdict_of);
@@ -271,7 +272,7 @@ fn page(db: &Connection, query: &PassQuery) -> Result<PassPage, RecordError> {
     Ok(page)
 }
 
-/// The passes of the rows whose report can be read.
+/// Returns the passes of the rows, without unreadable reports.
 pub(super) fn read_passes(mut rows: Rows<'_>) -> Result<Vec<RecordedPass>, RecordError> {
     let mut passes = Vec::new();
     while let Some(row) = rows.next()? {
@@ -280,7 +281,7 @@ pub(super) fn read_passes(mut rows: Rows<'_>) -> Result<Vec<RecordedPass>, Recor
     Ok(passes)
 }
 
-/// The pass of a row; `None` where its report cannot be read.
+/// Returns the pass of a row; `None` if its report is unreadable.
 pub(super) fn read_pass(row: &SqlRow<'_>) -> Result<Option<RecordedPass>, RecordError> {
     let report: String = row.get(3)?;
     let Ok(report) = serde_json::from_str(&report) else { return Ok(None) };

@@ -1,11 +1,11 @@
-//! Reads the peaks of the noise of the Sun and the Moon.
+//! Reader of the noise peaks of the Sun and the Moon.
 
 use std::path::Path;
 
 use super::{RecordError, file};
 use crate::{contract::record::Peaks, station::AntennaId};
 
-/// Reads the peaks of the record at `path`; none where there is no record yet.
+/// Reads the peaks of the record at `path`; none if the record does not exist yet.
 pub fn read_peaks(path: &Path) -> Result<Peaks, RecordError> {
     let mut peaks = Peaks::default();
     if !path.exists() {

@@ -1,4 +1,4 @@
-//! The pointing model of an antenna, fitted to the passes that its record holds.
+//! Pointing model of an antenna, fitted to the passes in its record.
 
 use std::{ops::RangeInclusive, path::Path};
 
@@ -15,9 +15,11 @@ use crate::{
     station::AntennaId,
 };
 
-/// Time between two points of a pass that are used, seconds: the error of a drive changes little in less.
+/// Min time between two used points of a pass, seconds: within it, the error of a drive changes
+/// little.
 const APART_S: f64 = 10.0;
-/// Positions further from the satellite are a slew, or no track at all, degrees.
+/// Max distance from the satellite of a used position, degrees. Positions beyond it belong to a
+/// slew or to no track.
 const NEAR_DEG: f64 = 10.0;
 
 #[derive(Debug, thiserror::Error)]
@@ -28,8 +30,9 @@ pub enum CannotFitPointing {
     Points { passes: usize, cannot_fit: CannotFit },
 }
 
-/// Fits the model of `antenna`, `excluded` some terms, to its passes in the record at `path` that end
-/// `span` a time, and to `peaks`. Reports without a site are of an antenna at `site`.
+/// Fits the model of `antenna`, without the `excluded` terms. Uses `peaks` and the antenna's passes
+/// in the record at `path` that end within `span`. Reports without a site belong to an antenna at
+/// `site`.
 pub fn fit_pointing(
     path: &Path,
     antenna: AntennaId,
@@ -62,7 +65,7 @@ fn thinned(track: &[TrackPoint], flown_with: &PointingModel) -> Vec<Point> {
         kind: Kind::Satellite,
         time: point.time,
         direction: point.satellite,
-        // Readings of the axes.
+        // The fit compares with readings of the axes.
         measured: flown_with.reading(point.antenna).unwrap_or(point.antenna),
         weight: 1.0,
     };

@@ -1,4 +1,4 @@
-//! Reads a record, also while it is written.
+//! Reader of a record, also during writes.
 
 use std::{collections::BTreeMap, path::Path};
 
@@ -12,25 +12,25 @@ use super::{
 };
 use crate::contract::record::Row;
 
-/// Times that no row is before or after, microseconds.
+/// Bounds before and after the times of all rows, microseconds.
 const EARLIEST_US: i64 = i64::MIN / 2;
 const LATEST_US: i64 = i64::MAX / 2;
 
 /// Kind of a row of the record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum RowKind {
-    /// An entry of the station.
+    /// Entry of the station.
     Entry(Kind),
-    /// A measured position.
+    /// Measured position.
     Position,
-    /// A line on a link.
+    /// Line on a link.
     Frame,
-    /// A pass that was tracked, at its end, with its report.
+    /// Tracked pass with its report, at the end of the pass.
     Pass,
 }
 
 impl RowKind {
-    /// All, entries first.
+    /// Returns all kinds, entries first.
     pub fn all() -> impl Iterator<Item = Self> {
         let others = [Self::Pass, Self::Position, Self::Frame];
         Kind::ALL.into_iter().map(Self::Entry).chain(others)
@@ -46,42 +46,42 @@ impl RowKind {
     }
 }
 
-/// Which rows are wanted.
+/// Selection of rows.
 #[derive(Debug, Clone, Default)]
 pub struct Query {
-    /// From this time on.
+    /// First selected time.
     pub start: Option<Timestamp>,
-    /// Before this time.
+    /// End of the selected time; rows at `end` are excluded.
     pub end: Option<Timestamp>,
-    /// Name of the antenna, now or at the time. Gaps, and STOPs that were pressed for it, count
-    /// among its entries.
+    /// Name of the antenna, current or at the time of the row. Gaps, and STOPs that were meant for
+    /// this antenna, count as its rows.
     pub antenna: Option<String>,
     pub row_kinds: Vec<RowKind>,
 }
 
-/// Rows of the antenna of a query.
+/// SQL condition for rows of the queried antenna.
 const OF_ANTENNA: &str = "WHERE antenna IN (SELECT id FROM antenna AS named WHERE named.name = ?1)";
 
-/// Entries that concern it beside others are noted without one.
+/// SQL condition for entries without an antenna that also concern the queried one.
 const OR_OF_SEVERAL: &str = "OR antenna IS NULL AND CASE kind WHEN 'gap' THEN 1 WHEN 'stop' THEN EXISTS \
         (SELECT 1 FROM (SELECT value FROM json_each(data, '$.antennas') \
             UNION ALL SELECT value FROM json_each(data, '$.elsewhere')) AS pressed \
         WHERE pressed.value IN (SELECT id FROM antenna AS named WHERE named.name = ?1)) \
     ELSE 0 END";
 
-/// Up to where a reader has read. Each antenna has a place of its own: one may answer later than
-/// another to what was measured before.
+/// Position of a reader in the record. Each antenna has its own position, because one antenna may
+/// report an older measurement later than another.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 struct Place {
     event: i64,
     pass: i64,
     /// Time of the latest position of each antenna, microseconds.
     position_us: BTreeMap<i64, i64>,
-    /// The same of the lines.
+    /// Time of the latest line of each antenna, microseconds.
     frame_us: BTreeMap<i64, i64>,
 }
 
-/// A record to be read.
+/// Record that is open for reading.
 pub struct Record {
     db: Connection,
     read_to: Place,
@@ -93,15 +93,14 @@ impl Record {
         Ok(Self { db: file::open_to_read(path)?, read_to: Place::default() })
     }
 
-    /// Hands the rows that `query` wants and that were not read before to `take`, in order of time,
-    /// until it returns `false`. `take` must not wait for anybody: meanwhile the file gives no space
-    /// back.
+    /// Passes unread rows that match `query` to `take`, in order of time, until `take` returns
+    /// `false`. `take` must not wait: the file frees no space during the call.
     pub fn read(
         &mut self,
         query: &Query,
         take: &mut dyn FnMut(Row) -> bool,
     ) -> Result<(), RecordError> {
-        // Both look at the same state of the file, whatever is written meanwhile.
+        // Both reads see the same state of the file during concurrent writes.
         let _state = self.db.unchecked_transaction()?;
         let place = self.place()?;
         if place != self.read_to {
@@ -111,7 +110,7 @@ impl Record {
         Ok(())
     }
 
-    /// Up to where there is something to read.
+    /// Returns the end of the data in the record.
     fn place(&self) -> Result<Place, RecordError> {
         let newest = |table: &str| {
             let sql = format!("SELECT max(id) FROM {table}");
@@ -135,7 +134,7 @@ impl Record {
     }
 }
 
-/// The entries that `query` wants, in order of time.
+/// Returns the entries that match `query`, in order of time.
 pub(super) fn entries(db: &Connection, query: &Query) -> Result<Vec<Row>, RecordError> {
     let mut found = Vec::new();
     let all = Place::default();
@@ -146,7 +145,7 @@ pub(super) fn entries(db: &Connection, query: &Query) -> Result<Vec<Row>, Record
     Ok(found)
 }
 
-/// Hands the rows from one place up to another to `take`.
+/// Passes the rows between two positions to `take`.
 fn rows(
     db: &Connection,
     query: &Query,
@@ -272,7 +271,8 @@ fn read_row(row: &SqlRow<'_>) -> Result<Row, RecordError> {
     })
 }
 
-/// Bytes as text: printable ASCII as it stands, the rest as `\x0d`, a backslash as `\\`.
+/// Returns bytes as text: printable ASCII unchanged, other bytes as `\x0d`, and a backslash as
+/// `\\`.
 fn written(bytes: &[u8]) -> String {
     bytes.escape_ascii().to_string()
 }

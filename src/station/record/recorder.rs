@@ -1,4 +1,4 @@
-//! The station's end of its record.
+//! Station's side of its record.
 
 use std::{
     io,
@@ -21,26 +21,26 @@ use super::{
 };
 use crate::{clock::Clock, contract::record::Status, job, station::Retention};
 
-/// Most orders that wait for the writer. A turn of the station makes some ten at most.
+/// Max number of orders that wait for the writer. A turn of the station makes about ten.
 const ORDERS: usize = 4096;
-/// How long the end of the station waits for the last write.
+/// Timeout for the last write when the station ends.
 const FAREWELL: Duration = Duration::from_secs(2);
 
-/// Records a station. Dropping it writes what waits.
+/// Recorder of a station. Dropping it writes pending data.
 pub struct Recorder {
-    /// `None` once it ends.
+    /// Channel to the writer; `None` once the recorder ends.
     orders: Option<mpsc::SyncSender<Order>>,
     shared: Arc<Shared>,
     ended: mpsc::Receiver<()>,
-    /// There was no room for the last picture.
+    /// `true` if the last picture was dropped for lack of room.
     is_cut: AtomicBool,
-    /// The time of the station stands while something is written.
+    /// `true` if the station's time stops during a write, as in a rehearsal.
     is_in_place: bool,
 }
 
 impl Recorder {
-    /// Starts to record into the file at `path`, on a thread of its own. A file that cannot be
-    /// written is tried again and again.
+    /// Starts recording into the file at `path` on its own thread. The recorder keeps retrying a
+    /// file that cannot be written.
     pub fn start(path: PathBuf, clock: Clock, keeping: Retention) -> io::Result<Self> {
         let (orders, inbox) = mpsc::sync_channel(ORDERS);
         let (tell_ended, ended) = mpsc::sync_channel(1);
@@ -52,7 +52,7 @@ impl Recorder {
             not_filmed: AtomicU64::default(),
         });
         let writer = Writer::new(clock, Arc::clone(&shared));
-        // Its time is that of the station, which may be paused.
+        // Enter the station's runtime: the writer uses its time, which may be paused.
         let runtime = Handle::try_current();
         thread::Builder::new().name("azel-record".to_owned()).spawn(move || {
             let _entered = runtime.as_ref().map(Handle::enter);
@@ -63,17 +63,17 @@ impl Recorder {
         Ok(Self { orders: Some(orders), shared, ended, is_cut: AtomicBool::default(), is_in_place })
     }
 
-    /// Records an entry. One that the writer has no room for is counted.
+    /// Records an entry. An entry without room is dropped and counted.
     pub fn note(&self, entry: Entry) {
         self.order(Order::Entry(Box::new(entry)));
     }
 
-    /// Records a pass, in the same way.
+    /// Records a pass. A pass without room is dropped and counted.
     pub fn note_pass(&self, pass: PassNote) {
         self.order(Order::Pass(Box::new(pass)));
     }
 
-    /// Films a picture. One that the writer has no room for is counted.
+    /// Films a picture. A picture without room is dropped and counted.
     pub fn film(&self, picture: Arc<dyn Picture>) {
         let is_after_cut = self.is_cut.load(Ordering::Relaxed);
         let has_room = self.order(Order::Picture { picture, is_after_cut });
@@ -83,7 +83,7 @@ impl Recorder {
         }
     }
 
-    /// Returns `false` if there is no room for it.
+    /// Queues an order. Returns `false` if there is no room.
     fn order(&self, order: Order) -> bool {
         let Some(orders) = &self.orders else { return false };
         let Err(mpsc::TrySendError::Full(order)) = orders.try_send(order) else { return true };
@@ -95,12 +95,12 @@ impl Recorder {
         false
     }
 
-    /// Records a session from its beginning: its lines and measured positions.
+    /// Records a session from its start: its lines and measured positions.
     pub fn follow(&self, session: RecordedSession) {
         locked(&self.shared.begun).push(session);
     }
 
-    /// Sets how long the record keeps its parts from now on.
+    /// Sets the retention of the record's parts.
     pub fn keep(&self, keeping: Retention) {
         *locked(&self.shared.keeping) = keeping;
     }
@@ -109,13 +109,13 @@ impl Recorder {
         locked(&self.shared.status).clone()
     }
 
-    /// Waits until all that was noted so far is written, or could not be.
+    /// Waits until all queued data is written or has failed.
     pub fn flush(&self) {
         let (done, wait) = mpsc::sync_channel(1);
         if let Some(orders) = &self.orders
             && orders.send(Order::Flush(done)).is_ok()
         {
-            // A writer that has broken down answers by its end.
+            // A writer that broke down drops its sender, which ends this wait.
             let _ = wait.recv();
         }
     }

@@ -1,4 +1,4 @@
-//! The rows of the tables, within one transaction of the writer.
+//! Rows of the tables, within one transaction of the writer.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use crate::{
     station::AntennaId,
 };
 
-/// The tables, within one transaction.
+/// Tables within one transaction.
 pub(super) struct Tables<'a> {
     pub(super) tx: &'a Transaction<'a>,
     /// Number of this run.
@@ -170,7 +170,7 @@ impl Tables<'_> {
     }
 }
 
-/// Degrees in whole parts; `None` where there is no angle.
+/// Returns degrees as a whole number of stored units; `None` without an angle.
 fn parts(deg: Option<f64>) -> Option<i64> {
     let parts = deg.filter(|deg| deg.is_finite())? * PER_DEGREE;
     #[expect(clippy::cast_possible_truncation, reason = "an angle has some turns at most")]
@@ -194,8 +194,8 @@ fn fault(finding: Finding) -> Option<String> {
     serde_json::to_string(&finding).ok()
 }
 
-/// Returns the meaning of a line. Omits that of a good line that Azel polls for: most lines are
-/// such, and their bytes say the same.
+/// Returns the meaning of a line, except of good lines that Azel polls for: most lines are of this
+/// kind, and their bytes say the same.
 fn meaning(line: &WireLine) -> Option<&str> {
     let is_shown = !line.is_poll || !line.finding.is_good();
     line.meaning.as_ref().filter(|_| is_shown).map(|meaning| &*meaning.text)

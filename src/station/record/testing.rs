@@ -1,4 +1,4 @@
-//! Records for tests, also for the packages above.
+//! Records for tests, also of higher packages.
 
 #![allow(clippy::unwrap_used, clippy::missing_panics_doc, reason = "a test may end here")]
 
@@ -23,10 +23,10 @@ use crate::{
     station::{AntennaId, Retention},
 };
 
-/// Points of a pass.
+/// Number of points of a pass.
 pub const POINTS: usize = 60;
 
-/// A pass of ten minutes, of which the second minute was lost.
+/// Returns a pass of ten minutes that lost its second minute.
 pub fn note(antenna: AntennaId, satellite: u32, start: Timestamp) -> PassNote {
     let elements = bundled().unwrap().get(satellite).unwrap().clone();
     let propagator = Propagator::new(&elements).unwrap();

@@ -1,4 +1,4 @@
-//! The record as it is written and read.
+//! Tests of writing and reading the record.
 
 mod along;
 mod film;
@@ -45,7 +45,7 @@ fn recorder(path: &Path) -> Recorder {
     Recorder::start(path.to_owned(), clock(), Retention::default()).unwrap()
 }
 
-/// The logs of a session that is recorded.
+/// Logs of a recorded session.
 struct Logs {
     wire: WireLog,
     positions: PositionLog,
@@ -153,12 +153,13 @@ fn entries_positions_and_lines_are_read_as_they_were_noted() {
     let frames_named =
         |name: &str| -> Vec<&Value> { frames.iter().map(|row| &row.data[name]).collect() };
     assert_eq!(frames_named("bytes"), [r"?P\\\r", r"?P\r", "?P"]);
-    // Most lines are good questions for the position, and their bytes say the same.
+    // The record omits the meaning of good polls: most lines are polls, and their bytes say the
+    // same.
     let asks = json!("Asks for the position");
     assert_eq!(frames_named("meaning"), [&asks, &Value::Null, &asks]);
     assert_eq!(frames_named("fault"), [&Value::Null, &Value::Null, &json!("Unfinished")]);
     assert_eq!(events(&path), [7]);
-    // Antenna and time choose.
+    // Select rows by antenna and time.
     let of_kinds = |antenna: &str, begin: Option<Timestamp>, row_kinds: Vec<RowKind>| {
         rows_of(
             &path,
@@ -231,7 +232,7 @@ fn what_one_antenna_measured_before_another_and_told_later_is_read_too() {
 fn what_waits_for_a_disk_is_written_later_and_nothing_is_lost() {
     let folder = tempfile::tempdir().unwrap();
     let blocked = folder.path().join("records");
-    // A file where the folder has to be.
+    // A file blocks the place of the folder.
     fs::write(&blocked, "").unwrap();
     let path = blocked.join("a.sqlite");
     let recorder = recorder(&path);
@@ -376,7 +377,7 @@ fn old_positions_and_lines_go_and_entries_stay() {
     assert_eq!(events(&path), [0; 0]);
 }
 
-/// Records for a moment, so many days later.
+/// Records briefly on the given day after the start.
 fn start_on_day(path: &Path, day: u64, keeping: Retention) {
     let clock = Clock::new(move || start() + Duration::from_hours(24 * day));
     let recorder = Recorder::start(path.to_owned(), clock, keeping).unwrap();
@@ -400,7 +401,7 @@ fn a_clock_that_is_years_ahead_at_the_start_removes_nothing() {
         let kinds = [RowKind::Position, RowKind::Pass, RowKind::Entry(Kind::Event)];
         kinds.map(|kind| rows(&path, kind).len())
     };
-    // Entries that the first start wrote by the wrong clock do not vouch for it.
+    // Entries that the first start wrote with the wrong clock do not make it trusted.
     for _ in 0..2 {
         let recorder =
             Recorder::start(path.clone(), Clock::new(wrong), Retention::default()).unwrap();
@@ -452,7 +453,7 @@ fn a_clock_that_may_be_wrong_is_trusted_after_a_day() {
     assert!(trusts(40, 0) && trusts(91, 0), "a clock that is behind changes nothing");
     assert!(trusts(40, 24), "it was ahead before");
     assert!(!trusts(91, 0));
-    // A station that is closed every evening: its clock goes on from day to day.
+    // A station that closes every evening has a clock that continues from day to day.
     assert!(trusts(93, 2), "a pause of 50 days");
     assert!(!trusts(900, 2) && !trusts(900, 3), "each start has the same wrong clock");
     assert!(!trusts(1_900, 2), "another one");

@@ -1,4 +1,4 @@
-//! The thread that writes the record.
+//! Thread that writes the record.
 
 use std::{
     fs,
@@ -25,16 +25,16 @@ use crate::{
     device::Measured,
 };
 
-/// Time between two writes: a crash costs no more than this, and less than a second with the turn
-/// of the station before it.
+/// Time between two writes. A crash loses at most this time and the preceding turn of the station,
+/// in total less than a second.
 const EVERY: Duration = Duration::from_millis(500);
-/// Time between two tries while nothing can be written.
+/// Pause between two attempts while nothing can be written.
 const RETRY: Duration = Duration::from_secs(2);
-/// Time between two looks at the size of the file, and for what is older than it is kept.
+/// Time between two checks of the file's size and of data beyond its retention.
 const LOOK: Duration = Duration::from_secs(10);
-/// Most entries that wait for a disk.
+/// Max number of entries that wait for the disk.
 const WAITING: usize = 20_000;
-/// Beyond this the clock of the computer has been set, seconds.
+/// Min step that counts as setting this computer's clock, seconds.
 const CLOCK_SET_S: f64 = 60.0;
 
 /// Device and number of a file.
@@ -43,20 +43,20 @@ type FileId = (u64, u64);
 #[cfg(not(unix))]
 type FileId = ();
 
-/// `None` if there is no file.
+/// Returns the identity of a file; `None` if it does not exist.
 #[cfg(unix)]
 fn file_id(path: &Path) -> Option<FileId> {
     use std::os::unix::fs::MetadataExt as _;
     fs::metadata(path).ok().map(|file| (file.dev(), file.ino()))
 }
 
-/// `None` if there is no file.
+/// Returns the identity of a file; `None` if it does not exist.
 #[cfg(not(unix))]
 fn file_id(path: &Path) -> Option<FileId> {
     path.exists().then_some(())
 }
 
-/// A session, and how far it is recorded.
+/// Session with its recording progress.
 struct Source {
     recorded_session: RecordedSession,
     is_named: bool,
@@ -69,7 +69,7 @@ struct News {
     lines: Vec<Arc<Recorded>>,
     first_position: u64,
     positions: Vec<Measured>,
-    /// The session has ended: there is nothing more to come.
+    /// `true` if the session has ended and sends no more data.
     is_last: bool,
 }
 
@@ -77,9 +77,9 @@ pub(super) struct Writer {
     path: PathBuf,
     clock: Clock,
     begun: Moment,
-    /// The open file and the number of this run in it.
+    /// Open file, and the number of this run in the file.
     open: Option<(Connection, i64)>,
-    /// Identity of the file that was written last, and of its log.
+    /// Identity of the last written file, and of its log.
     written: Option<FileId>,
     log: Option<FileId>,
     run: Option<i64>,
@@ -87,13 +87,13 @@ pub(super) struct Writer {
     waiting: Vec<Entry>,
     passes: Vec<PassNote>,
     camera: Camera,
-    /// Entries dropped here since the last write.
+    /// Number of entries dropped since the last write.
     dropped: u64,
     written_at: Timestamp,
     looked_at: Option<Instant>,
-    /// The clocks at the last look, and how long the computer had slept by then.
+    /// Clocks at the last check, with the computer's total sleep time.
     clocks: (Moment, Duration),
-    /// When the clock of the computer was set last.
+    /// Time of the last step of this computer's clock.
     clock_set_at: Option<clock::Instant>,
     shared: Arc<Shared>,
 }
@@ -142,7 +142,7 @@ impl Writer {
             }
             match orders.recv_timeout(left) {
                 Ok(Order::Entry(entry)) => self.queue(*entry),
-                // There are some dozens a day: they need no limit.
+                // Passes need no limit: there are a few dozen a day.
                 Ok(Order::Pass(pass)) => self.passes.push(*pass),
                 Ok(Order::Picture { picture, is_after_cut }) => {
                     if is_after_cut {
@@ -152,7 +152,7 @@ impl Writer {
                 }
                 Ok(Order::Flush(done)) => {
                     self.write();
-                    // Nobody may be waiting any more.
+                    // The recorder may no longer wait.
                     let _ = done.send(());
                 }
                 Err(mpsc::RecvTimeoutError::Timeout) => {}
@@ -182,7 +182,7 @@ impl Writer {
         self.waiting.push(entry);
     }
 
-    /// Writes what is new. Returns `false` if it could not.
+    /// Writes new data. Returns `false` if the write failed.
     fn write(&mut self) -> bool {
         let begun = std::mem::take(&mut *locked(&self.shared.begun));
         self.sources.extend(begun.into_iter().map(Source::new));
@@ -263,7 +263,7 @@ impl Writer {
         self.camera.write(&tx, *run)?;
         tx.commit()?;
         self.log = file_id(&with_ending(&self.path, "-wal"));
-        // Only now: what could not be written is tried again.
+        // Clear these after the commit: failed data is written again.
         self.shared.turned_away.fetch_sub(turned_away, Ordering::Relaxed);
         self.shared.not_filmed.fetch_sub(not_filmed, Ordering::Relaxed);
         self.camera.is_written();
@@ -280,13 +280,13 @@ impl Writer {
         Ok(())
     }
 
-    /// Leaves a file that somebody has removed or replaced, and says so in the next one.
+    /// Leaves a file that somebody has removed or replaced, and notes this in the next file.
     fn watch_file(&mut self) {
         if self.written.is_none() || file_id(&self.path) == self.written {
             return;
         }
         (self.open, self.written) = (None, None);
-        // SQLite would write what the log of the old file holds into another one in its place.
+        // Remove the log too: SQLite would write the log of the old file into its replacement.
         let log = with_ending(&self.path, "-wal");
         if self.log.is_some() && file_id(&log) == self.log {
             for path in [log, with_ending(&self.path, "-shm")] {
@@ -305,7 +305,7 @@ impl Writer {
     fn open_file(&mut self) -> Result<(Connection, i64), RecordError> {
         let db = file::open(&self.path)?;
         let run = match self.run {
-            // The same file again.
+            // The file still contains this run.
             Some(run)
                 if db.query_row("SELECT count(*) FROM run WHERE id = ?1", [run], |row| {
                     row.get::<_, i64>(0)
@@ -318,7 +318,7 @@ impl Writer {
                     "INSERT INTO run (begun_us, program) VALUES (?1, ?2)",
                     params![self.begun.utc.as_microsecond(), env!("CARGO_PKG_VERSION")],
                 )?;
-                // A new file knows no names of antennas.
+                // A new file has no antenna names yet.
                 self.sources.iter_mut().for_each(|source| source.is_named = false);
                 self.camera.begin_anew();
                 db.last_insert_rowid()
@@ -328,7 +328,7 @@ impl Writer {
         Ok((db, run))
     }
 
-    /// Keeps a file that is no record under another name, so that a new one can begin.
+    /// Renames a file that is not a record, so that a new record can begin.
     fn set_aside(&self) {
         let suffix = format!("unreadable-{}", self.clock.utc().as_second());
         let backup = self.path.with_added_extension(suffix);
@@ -362,8 +362,8 @@ impl Writer {
         }
     }
 
-    /// Removes what is older than it is kept, as far as the clock can be trusted. Returns `true` if
-    /// more may be left.
+    /// Removes data beyond its retention if the clock is trusted. Returns `true` if more may be
+    /// left.
     fn remove_old(&self, now: Moment) -> Result<bool, RecordError> {
         let Some((db, _)) = &self.open else { return Ok(false) };
         let elapsed = |time| now.steady.saturating_duration_since(time);
@@ -382,7 +382,7 @@ impl Source {
     }
 
     fn news(&self) -> News {
-        // Before the logs are read: what is written to them afterwards is not lost.
+        // Check before reading the logs; otherwise data logged in between would be lost.
         let is_last = self.recorded_session.wire.is_alone();
         let mut lines = self.recorded_session.wire.copy_from(self.next_line);
         while let Some(last) = lines.last() {
@@ -398,13 +398,13 @@ impl Source {
     }
 }
 
-/// Size of the file and its log, bytes.
+/// Returns the size of the file and its log, bytes.
 fn size(path: &Path) -> u64 {
     let bytes = |path: &Path| fs::metadata(path).map_or(0, |file| file.len());
     bytes(path) + bytes(&with_ending(path, "-wal"))
 }
 
-/// The path with `ending` straight after its name, as SQLite names its log.
+/// Returns the path with `ending` appended to its name, like SQLite names its log.
 fn with_ending(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(ending);

@@ -1,31 +1,31 @@
-//! Faults that are added to a rehearsal.
+//! Faults that the operator adds to a rehearsal.
 
 use std::{str::FromStr, time::Duration};
 
 use crate::sim::Trouble;
 
-/// A fault of one unit or of all, for a time.
+/// Fault of one unit or of all units, for a time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
     pub kind: FaultKind,
-    /// Name of the antenna; `None` for all.
+    /// Name of the antenna; `None` for all antennas.
     pub antenna: Option<String>,
-    /// When it begins, from the start of the rehearsal.
+    /// Time from the start of the rehearsal to the fault.
     pub after: Duration,
-    /// `None` for the rest of the rehearsal.
+    /// Duration; `None` for the rest of the rehearsal.
     pub lasts: Option<Duration>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FaultKind {
-    /// The link breaks, and no other comes up.
+    /// The link breaks and cannot be opened again.
     LinkLost,
-    /// The unit has no power: it stands and does not answer. Afterwards it does nothing by itself.
+    /// The unit loses power: it stops and does not answer. Once powered again, it stays at rest.
     PowerCut,
     OfUnit(Trouble),
 }
 
-/// Why a text is no fault.
+/// Reason why a text is not a valid fault.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum WrongFault {
     #[error(
@@ -39,7 +39,8 @@ pub enum WrongFault {
     Number(String),
 }
 
-/// `link-lost,antenna=Dish,after=30,for=90`: the kind first; minutes from the start, and seconds.
+/// Parses for example `link-lost,antenna=Dish,after=30,for=90`. The kind comes first; `after` is in
+/// minutes, `for` in seconds.
 impl FromStr for Fault {
     type Err = WrongFault;
 
@@ -88,13 +89,13 @@ fn kind(word: &str) -> Result<FaultKind, WrongFault> {
     Ok(FaultKind::OfUnit(trouble))
 }
 
-/// A number from 0 on.
+/// Parses a finite number that is not negative.
 fn number(text: &str) -> Result<f64, WrongFault> {
     let number = text.parse::<f64>().ok().filter(|number| *number >= 0.0 && number.is_finite());
     number.ok_or_else(|| WrongFault::Number(text.to_owned()))
 }
 
-/// So many times `unit_s` seconds.
+/// Parses a duration in units of `unit_s` seconds.
 fn span(text: &str, unit_s: f64) -> Result<Duration, WrongFault> {
     Duration::try_from_secs_f64(number(text)? * unit_s)
         .map_err(|_| WrongFault::Number(text.to_owned()))

@@ -15,9 +15,9 @@ use crate::{
     station::{AntennaId, Station},
 };
 
-/// By newer elements or another search, the AOS of a pass may differ by less.
+/// Max difference in AOS of the same pass after newer elements or another search, seconds.
 const SAME_AOS_S: f64 = 60.0;
-/// Time from the end of a pass to its report, seconds.
+/// Max delay of the report after the end of a pass, seconds.
 const REPORTED_AFTER_S: f64 = 10.0;
 
 fn is_pass(pass: &RehearsedPass, antenna: AntennaId, satellite: u32, aos: Timestamp) -> bool {
@@ -25,16 +25,16 @@ fn is_pass(pass: &RehearsedPass, antenna: AntennaId, satellite: u32, aos: Timest
     pass.antenna == antenna && pass.satellite == satellite && is_same_aos()
 }
 
-/// The passes of a rehearsal that goes on.
+/// Passes of a running rehearsal.
 pub(super) struct Passes {
     start: Timestamp,
     end: Timestamp,
     list: Vec<RehearsedPass>,
-    /// Revision of the plan that was looked at last.
+    /// Revision of the last plan that was read.
     revision: u64,
-    /// When automatic operation of an antenna ended or was suspended.
+    /// Lines in which an antenna's automatic operation ended or was suspended.
     interruptions: Vec<DayLine>,
-    /// When the last line of the day that was looked at was written.
+    /// Time of the last line of the day that was read.
     day_until: Option<Timestamp>,
 }
 
@@ -54,7 +54,7 @@ impl Passes {
         self.end
     }
 
-    /// Returns `true` if no pass goes on at `now`.
+    /// Returns `true` if no pass is under way at `now`.
     pub(super) fn are_over(&self, now: Timestamp) -> bool {
         let is_over = |rehearsed_pass: &RehearsedPass| {
             rehearsed_pass.is_given_up
@@ -64,7 +64,7 @@ impl Passes {
         self.list.iter().all(is_over)
     }
 
-    /// Takes a new plan.
+    /// Adopts the passes of a new plan.
     pub(super) fn take_plan(&mut self, snapshot: &Snapshot) {
         let planned = &snapshot.schedule;
         if planned.revision == self.revision {
@@ -91,9 +91,9 @@ impl Passes {
         }
     }
 
-    /// Takes what is new in the list of the day.
+    /// Reads the new lines of the day.
     pub(super) fn take_day(&mut self, day: &[DayLine]) {
-        // Lines of one turn have the same time, and come together.
+        // Lines of one turn have the same time and arrive together.
         let start = self.day_until;
         let news = day.iter().filter(|line| start.is_none_or(|start| line.time > start));
         for line in news {

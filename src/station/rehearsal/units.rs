@@ -1,4 +1,4 @@
-//! The simulated units of a rehearsed station, and their links, which lead nowhere else.
+//! Simulated units of a rehearsed station. Their links reach no other unit.
 
 use std::{
     io,
@@ -25,7 +25,7 @@ use crate::{
 /// Size of a link's buffer, bytes.
 const BUFFER: usize = 4096;
 
-/// A unit and the link to it.
+/// Unit and the link to it.
 #[derive(Clone)]
 struct Linked {
     id: AntennaId,
@@ -37,8 +37,8 @@ struct Linked {
 pub(super) struct Units(Vec<Linked>);
 
 impl Units {
-    /// Units for the antennas of a station. Antennas of a make without a simulator are taken from the
-    /// station; their names are returned.
+    /// Creates units for the antennas of a station. Removes antennas without a simulator from the
+    /// station, and returns their names.
     pub(super) fn new(
         station: &mut Station,
         catalog: &Catalog,
@@ -51,7 +51,7 @@ impl Units {
             numbers.iter().filter_map(|number| catalog.get(*number).cloned()).collect();
         let (mut units, mut left_out) = (Vec::new(), Vec::new());
         let site = station.site;
-        // An antenna that cannot stand at its park position begins elsewhere.
+        // An antenna that cannot stand at its park position starts in the open sky.
         let begins_at = |antenna: &Antenna| {
             let (reach, now) = (Reach::from_station(station, antenna, None), clock.utc());
             let open = reach.open_sky(now).filter(|_| !reach.can_park(now))?;
@@ -63,7 +63,7 @@ impl Units {
         station.antennas.retain_mut(|antenna| {
             let park = antenna.park;
             antenna.park = begins_at.next().flatten().unwrap_or(park);
-            // Each has other numbers than its neighbour.
+            // Each antenna has its own random sequence.
             let seed = seed.rotate_left(16) ^ u64::from(antenna.id.0);
             let clock = clock.clone();
             let surroundings = Surroundings { site, clock, elements: &elements, mechanics, seed };
@@ -85,7 +85,7 @@ impl Units {
         Ok((Self(units), left_out))
     }
 
-    /// Returns the outside of the sessions of the rehearsed station: these units alone.
+    /// Returns the outside world of the sessions: only these units.
     pub(super) fn outside(self: &Arc<Self>, clock: &Clock) -> Outside {
         let units = Arc::clone(self);
         let dial = Arc::new(move |antenna: &Antenna, _: Arc<dyn UnitLock>| {
@@ -99,7 +99,7 @@ impl Units {
         Outside { dial, ..Outside::from(clock.clone()) }
     }
 
-    /// Lets units have a fault when its time comes. `start` is the start of the rehearsal.
+    /// Schedules a fault for its units. `start` is the start of the rehearsal.
     pub(super) fn suffer(
         &self,
         fault: &Fault,
@@ -144,7 +144,7 @@ impl Linked {
         Box::new(near)
     }
 
-    /// Begins or ends a fault; returns `false` for one that the unit cannot have.
+    /// Begins or ends a fault; returns `false` if the unit cannot have it.
     fn set(&self, kind: FaultKind, is_on: bool) -> bool {
         match kind {
             FaultKind::LinkLost => {

@@ -1,7 +1,7 @@
-//! Mechanics that all simulated units share: clients, faults, and the handle for tests.
+//! Common parts of all simulated units: clients, faults, and the handle for tests.
 //!
-//! A make brings a [`Unit`], which lives in memory, and a [`Wire`], by which the unit
-//! talks to one client.
+//! A make implements a [`Unit`], which lives in memory, and a [`Wire`], by which the unit talks to
+//! one client.
 
 mod connection;
 mod control;
@@ -18,13 +18,13 @@ pub use simulator::Simulator;
 
 use std::{collections::BTreeSet, fmt, ops::RangeInclusive, time::Duration};
 
-/// A simulated unit in memory, without I/O or clock.
+/// Simulated unit in memory, without I/O or clock.
 pub trait Unit: fmt::Debug + Send + Sized + 'static {
-    /// An oddity of firmware or line.
+    /// Oddity of firmware or line.
     type Quirk: Copy + Ord + fmt::Debug + Send;
-    /// A failure.
+    /// Failure of the unit or its line.
     type Fault: Copy + Ord + fmt::Debug + Send;
-    /// A request as listed by [`Control::received`].
+    /// Request as listed by [`Control::received`].
     type Request: Clone + fmt::Debug + Send;
     type Snapshot;
     /// Positions of both axes in the unit's own figures.
@@ -35,34 +35,36 @@ pub trait Unit: fmt::Debug + Send + Sized + 'static {
     const SILENCE: Self::Fault;
     /// Fault: noise precedes each reply.
     const NOISE: Self::Fault;
-    /// Fault: what a track needs is refused.
+    /// Fault: the unit refuses the commands that a track needs.
     const REFUSAL: Self::Fault;
     /// Fault: replies come in pieces.
     const SPLIT: Self::Fault;
-    /// Fault: replies are gathered and come together.
+    /// Fault: replies are collected and sent together.
     const MERGE: Self::Fault;
 
     /// Runs the unit until `elapsed` after the start. Earlier times change nothing.
     fn advance(&mut self, elapsed: Duration);
 
-    /// Switches these quirks and faults on and all others off.
+    /// Switches on exactly these quirks and faults.
     fn set_switches(&mut self, switches: &Switches<Self::Quirk, Self::Fault>);
 
-    /// Leaves the drives of the first and the second axis these shares of their full rate, 0 to 1.
+    /// Reduces the drives of the first and the second axis to these shares of their full rate, 0 to
+    /// 1.
     fn set_strength(&mut self, shares: [f64; 2]);
 
-    /// Sets the unit's own clock back by so much. Returns `false` if it has none that matters.
+    /// Sets the unit's own clock back by `late`. Returns `false` if the unit uses no clock.
     fn set_clock_late(&mut self, _late: Duration) -> bool {
         false
     }
 
-    /// Makes the unit follow its track late by so much. Returns `false` if it tracks nothing by itself.
+    /// Delays the unit's own tracking by `late`. Returns `false` if the unit does not track on its
+    /// own.
     fn set_track_late(&mut self, _late: Duration) -> bool {
         false
     }
 
-    /// Takes GPS from the unit, whose own clock then gains so many seconds a day; `None` brings it
-    /// back. Returns `false` if the unit has no clock that matters.
+    /// Disconnects GPS, so that the unit's clock gains this many seconds a day; `None` reconnects
+    /// GPS. Returns `false` if the unit uses no clock.
     fn set_clock_drift(&mut self, _gains_s_day: Option<f64>) -> bool {
         false
     }
@@ -70,17 +72,17 @@ pub trait Unit: fmt::Debug + Send + Sized + 'static {
     /// Cuts the power: the drives stop and a track ends. Settings, clock and angles stay.
     fn cut_power(&mut self);
 
-    /// Makes the sensors of the axes read something else. Returns `false` if they cannot.
+    /// Adds errors to the sensors of the axes. Returns `false` if the unit cannot simulate them.
     fn set_misreading(&mut self, _misreading: Misreading) -> bool {
         false
     }
 
-    /// Puts both axes elsewhere, as if by hand; they stand there.
+    /// Moves both axes to a place at once, as if by hand; the axes rest there.
     fn place(&mut self, place: Self::Place);
 
     fn snapshot(&self) -> Self::Snapshot;
 
-    /// Wire for a new client.
+    /// Creates the wire for a new client.
     fn wire(&self) -> Self::Wire;
 }
 
@@ -88,12 +90,12 @@ pub trait Unit: fmt::Debug + Send + Sized + 'static {
 pub trait Wire<U: Unit>: Send {
     type Reply: Send;
 
-    /// Time for which replies are gathered with [`Unit::MERGE`].
+    /// Time over which replies are collected with [`Unit::MERGE`].
     const MERGE_TIME: Duration = Duration::from_millis(100);
-    /// Length of a piece with [`Unit::SPLIT`].
+    /// Length of a piece with [`Unit::SPLIT`], bytes.
     const PIECE_BYTES: RangeInclusive<u64> = 1..=8;
 
-    /// Carries out the bytes that came in. Requests act at once; their replies wait.
+    /// Handles received bytes. Requests act at once; their replies are queued.
     fn take(
         &mut self,
         bytes: &mut [u8],
@@ -102,7 +104,7 @@ pub trait Wire<U: Unit>: Send {
         replies: &mut Replies<Self::Reply>,
     );
 
-    /// Bytes to send for `reply` number `number`, counted from 1. `None` ends the connection.
+    /// Returns the bytes of reply `number`, counted from 1. `None` ends the connection.
     fn put(
         &mut self,
         reply: Self::Reply,
@@ -111,7 +113,7 @@ pub trait Wire<U: Unit>: Send {
     ) -> Option<Vec<u8>>;
 }
 
-/// The quirks and faults that are switched on.
+/// Quirks and faults that are switched on.
 #[derive(Debug, Clone)]
 pub struct Switches<Q, F> {
     pub(super) quirks: BTreeSet<Q>,

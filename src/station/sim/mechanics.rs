@@ -1,12 +1,12 @@
-//! Imperfections of drive, gear and sensor, which every simulated axis can have.
+//! Imperfections of drive, gear and sensor for every simulated axis.
 
 use std::{collections::VecDeque, time::Duration};
 
 use super::prng::Prng;
 
-/// Max number of pending commands; a further one replaces the newest.
+/// Max number of pending commands; a further command replaces the newest.
 const MAX_PENDING: usize = 100;
-/// Mean time between two gusts, seconds, and the time that one lasts.
+/// Mean time between two gusts, and duration of a gust, seconds.
 const GUST_PERIOD_S: f64 = 20.0;
 const GUST_S: f64 = 3.0;
 
@@ -34,18 +34,19 @@ pub struct Mechanics {
 }
 
 impl Mechanics {
-    /// Time from full rate to rest without power, seconds; `own_s` is the make's.
+    /// Returns the time from full rate to rest without power, seconds; `own_s` is the make's
+    /// default.
     pub(super) fn coasting_s(&self, own_s: f64) -> f64 {
         self.coasting.map_or(own_s, |coasting| coasting.as_secs_f64())
     }
 }
 
-/// Reads seconds from 0 to 60.
+/// Parses seconds from 0 to 60.
 fn seconds(text: &str) -> Result<Duration, String> {
     Duration::try_from_secs_f64(number(text, 60.0)?).map_err(|error| error.to_string())
 }
 
-/// Reads degrees from 0 to 10.
+/// Parses degrees from 0 to 10.
 fn degrees(text: &str) -> Result<f64, String> {
     number(text, 10.0)
 }
@@ -55,11 +56,11 @@ fn number(text: &str, max: f64) -> Result<f64, String> {
     number.ok_or_else(|| format!("not a number from 0 to {max}"))
 }
 
-/// Commands on their way to a late drive.
+/// Commands that a drive with dead time has not obeyed yet.
 #[derive(Debug, Clone)]
 pub(super) struct CommandDelay<C> {
     dead_time_s: f64,
-    /// Time that is left, seconds, and the command.
+    /// Remaining time, seconds, and the command.
     pending: VecDeque<(f64, C)>,
 }
 
@@ -75,7 +76,7 @@ impl<C> CommandDelay<C> {
         self.pending.push_back((self.dead_time_s, command));
     }
 
-    /// The newest command on its way.
+    /// Returns the newest pending command.
     pub(super) fn newest_mut(&mut self) -> Option<&mut C> {
         self.pending.back_mut().map(|(_, command)| command)
     }
@@ -88,7 +89,7 @@ impl<C> CommandDelay<C> {
         self.pending.clear();
     }
 
-    /// Advances time. Returns the command that takes effect.
+    /// Advances time. Returns the command that takes effect now.
     pub(super) fn advance(&mut self, step_s: f64) -> Option<C> {
         let mut obeyed = None;
         while self.pending.front().is_some_and(|(left_s, _)| *left_s <= 0.0) {
@@ -101,7 +102,7 @@ impl<C> CommandDelay<C> {
     }
 }
 
-/// Time for which a drive has run since it was switched on.
+/// Time for which a drive must run after it was switched on, and its run so far.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MinimumRun {
     minimum_s: f64,
@@ -136,7 +137,7 @@ impl Gear {
         Self { half_deg: mechanics.backlash_deg / 2.0, within_deg: 0.0 }
     }
 
-    /// The drive turns by `by_deg`. Returns by how much the axis turns, degrees.
+    /// Turns the drive by `by_deg`. Returns the turn of the axis, degrees.
     pub(super) fn turn(&mut self, by_deg: f64) -> f64 {
         let drive_deg = self.within_deg + by_deg;
         self.within_deg = drive_deg.clamp(-self.half_deg, self.half_deg);
@@ -178,7 +179,7 @@ impl Sensor {
         self.error_deg = self.gust_deg + self.random.even() * self.noise_deg;
     }
 
-    /// Reading minus angle at the last step, degrees.
+    /// Returns the reading minus the true angle at the last step, degrees.
     pub(super) fn error_deg(&self) -> f64 {
         self.error_deg
     }

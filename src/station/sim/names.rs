@@ -3,16 +3,15 @@
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("unknown {subject} {name:?}; known are {}", valid.join(", "))]
 pub struct UnknownName {
-    /// Kind of name that was expected.
+    /// Expected kind of name.
     pub subject: &'static str,
-    /// Name as given.
+    /// Given name.
     pub name: String,
     /// All known names.
     pub valid: Vec<&'static str>,
 }
 
-/// Implements parsing and formatting by name for types with a table `ALL` of values and
-/// names.
+/// Implements parsing and formatting by name, for types with a table `ALL` of values and names.
 macro_rules! named {
     ($($type:ident is $subject:literal),* $(,)?) => {$(
         impl std::str::FromStr for $type {
@@ -38,8 +37,8 @@ macro_rules! named {
 
 pub(super) use named;
 
-/// Checks that the names of `all` are read back, and that the error for a wrong one lists
-/// them.
+/// Checks that the names of `all` are parsed to their values, and that the error for a wrong name
+/// lists all names.
 #[cfg(test)]
 pub(super) fn assert_read_back<T>(all: &[(T, &str)])
 where

@@ -1,6 +1,6 @@
-//! Repeatable randomness.
+//! Repeatable random numbers.
 
-/// Generator `SplitMix64`: the same numbers for the same seed.
+/// Generator `SplitMix64`; the same seed gives the same numbers.
 #[derive(Debug, Clone)]
 pub(super) struct Prng(u64);
 
@@ -17,18 +17,19 @@ impl Prng {
         mixed ^ (mixed >> 31)
     }
 
-    /// Random number from `min` to `max`, both included.
+    /// Returns a random number from `min` to `max`, both included.
     pub(super) fn in_range(&mut self, min: u64, max: u64) -> u64 {
         let span = max.saturating_sub(min).saturating_add(1);
         min.saturating_add(self.next() % span)
     }
 
-    /// Evenly distributed from -1 to 1.
+    /// Returns a random number, evenly distributed from -1 to 1.
     pub(super) fn even(&mut self) -> f64 {
         self.in_range(0, 2_000_000) as f64 / 1e6 - 1.0
     }
 
-    /// From the normal distribution of standard deviation 1, nearly: the sum of twelve even ones.
+    /// Returns an approximately normal random number with standard deviation 1: the sum of twelve
+    /// evenly distributed ones.
     pub(super) fn normal(&mut self) -> f64 {
         let even = |_| self.in_range(0, 1_000_000) as f64 / 1e6;
         (0..12).map(even).sum::<f64>() - 6.0

@@ -1,11 +1,12 @@
-//! A simulated RC2000C antenna controller.
+//! Simulated RC2000C antenna controller.
 //!
-//! On its raw TCP port or pseudo-terminal it is an ordinary peer: it speaks the protocol
-//! of the vendor's manual, turns a modelled mount and feed, stores satellites, tracks one
-//! of them and can be told to misbehave. Where the manual is silent it takes the case that
-//! is worst for a client: any command takes the panel from a local operator, an axis that
-//! coasts after a stop is not reported as moving, and a command for a drive in alarm is
-//! acknowledged.
+//! On its raw TCP port or pseudo-terminal, the simulator behaves like a real unit. It speaks the
+//! protocol of the vendor's manual, turns a modelled mount and feed, stores satellites and tracks
+//! one of them. Quirks and faults make it misbehave.
+//!
+//! Where the manual is silent, the simulator takes the worst case for a client. Any command takes
+//! the panel from a local operator. An axis that coasts after a stop is reported as still, and a
+//! command for a drive in alarm is acknowledged.
 
 mod axis;
 mod command_line;
@@ -29,8 +30,8 @@ pub use unit::{Mode, Snapshot};
 
 use super::harness;
 
-/// Handle of a simulated RC2000C; clones control the same one.
+/// Handle of a simulated RC2000C; clones control the same unit.
 pub type Control = harness::Control<unit::Rc2000c>;
 
-/// An RC2000C on a raw TCP port, as behind a serial server.
+/// RC2000C on a raw TCP port, like a unit behind a serial server.
 pub type Simulator = harness::Simulator<unit::Rc2000c>;

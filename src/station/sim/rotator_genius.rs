@@ -1,10 +1,11 @@
-//! A simulated Rotator Genius.
+//! Simulated Rotator Genius.
 //!
-//! On its TCP port it is an ordinary peer: it speaks rev. 4 of the vendor's protocol,
-//! turns two rotators that ramp and coast, and can be told to misbehave. Its replies are
-//! byte for byte those recorded at two stations. Where the document is silent it takes the
-//! case that is worst for a client: it goes on moving when its client leaves, and a
-//! rotator that is no longer driven still coasts.
+//! On its TCP port, the simulator behaves like a real unit. It speaks rev. 4 of the vendor's
+//! protocol and turns two rotators that ramp and coast. Its replies equal byte for byte the ones
+//! recorded at two stations. Quirks and faults make it misbehave.
+//!
+//! Where the document is silent, the simulator takes the worst case for a client. It keeps moving
+//! when its client leaves, and a rotator without drive still coasts.
 
 mod command;
 mod command_line;
@@ -23,8 +24,8 @@ pub use unit::{RotatorState, Snapshot};
 
 use super::harness;
 
-/// Handle of a simulated Rotator Genius; clones control the same one.
+/// Handle of a simulated Rotator Genius; clones control the same unit.
 pub type Control = harness::Control<unit::RotatorGenius>;
 
-/// A Rotator Genius that listens on a TCP port.
+/// Rotator Genius that listens on a TCP port.
 pub type Simulator = harness::Simulator<unit::RotatorGenius>;

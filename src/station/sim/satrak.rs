@@ -1,9 +1,11 @@
-//! A simulated Satrak antenna controller unit.
+//! Simulated Satrak antenna controller unit.
 //!
-//! On its TCP port it is an ordinary peer: it speaks the protocol of the vendor's
-//! document, turns a modelled X/Y mount, tracks with its own SGP4 and can be told to
-//! misbehave. Where the document is silent it takes the case that is worst for a client: a
-//! move has no time-out, and stopping leaves tracking switched on.
+//! On its TCP port, the simulator behaves like a real unit. It speaks the protocol of the vendor's
+//! document, turns a modelled X/Y mount and tracks with its own SGP4. Quirks and faults make it
+//! misbehave.
+//!
+//! Where the document is silent, the simulator takes the worst case for a client. A move has no
+//! timeout, and a stop leaves tracking switched on.
 
 mod answer;
 mod command_line;
@@ -24,8 +26,8 @@ pub use unit::Snapshot;
 
 use super::harness;
 
-/// Handle of a simulated Satrak; clones control the same one.
+/// Handle of a simulated Satrak; clones control the same unit.
 pub type Control = harness::Control<unit::Satrak>;
 
-/// A Satrak that listens on a TCP port.
+/// Satrak that listens on a TCP port.
 pub type Simulator = harness::Simulator<unit::Satrak>;

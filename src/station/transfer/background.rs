@@ -1,4 +1,4 @@
-//! A transfer in progress on its own thread.
+//! Transfer in progress on its own thread.
 
 use std::{
     future::Future,
@@ -12,10 +12,10 @@ use tokio_util::sync::CancellationToken;
 
 use crate::{contract::transfer::Progress, job::Wake};
 
-/// A transfer in progress. Dropping it cancels it.
+/// Transfer in progress. Dropping it cancels the transfer.
 ///
-/// It has its own thread and runtime because it unlocks keys and hashes files, and no STOP
-/// may wait for that.
+/// A transfer has its own thread and runtime because it unlocks keys and hashes files, which must
+/// not delay a STOP.
 pub struct Transfer<T> {
     progress: watch::Receiver<Option<Progress>>,
     result: mpsc::Receiver<T>,
@@ -23,8 +23,8 @@ pub struct Transfer<T> {
 }
 
 impl<T: Send + 'static> Transfer<T> {
-    /// Starts the future that `work` makes, on a thread called `name`. `work` gets a callback
-    /// for progress and a token for cancellation. `wake` is called after every progress and at
+    /// Starts the future that `work` makes, on a thread called `name`. `work` gets a callback for
+    /// progress and a token for cancellation. The thread calls `wake` after each progress and at
     /// the end.
     pub fn start<F: Future<Output = T>>(
         name: &str,
@@ -46,18 +46,18 @@ impl<T: Send + 'static> Transfer<T> {
             // The receiver may be gone already.
             let _ = send_result.send(outcome);
             wake();
-            // A cancelled web request still ends by its time limit.
+            // Do not wait for a cancelled web request, which ends by its own timeout.
             runtime.shutdown_background();
         })?;
         Ok(Self { progress, result, cancel })
     }
 
-    /// Latest progress, if the work reports any.
+    /// Returns the latest progress, if the work reports any.
     pub fn progress(&self) -> Option<Progress> {
         *self.progress.borrow()
     }
 
-    /// Takes the result; it comes once. An error if the work broke off without a result.
+    /// Returns the result once. An error means that the work broke off without a result.
     pub fn poll(&self) -> Option<Result<T, BrokenOff>> {
         match self.result.try_recv() {
             Ok(result) => Some(Ok(result)),
@@ -66,7 +66,7 @@ impl<T: Send + 'static> Transfer<T> {
         }
     }
 
-    /// Asks the work to end; its result still comes and says where it ended.
+    /// Cancels the work. Its result still arrives and says where the work ended.
     pub fn cancel(&self) {
         self.cancel.cancel();
     }
@@ -78,7 +78,7 @@ impl<T> Drop for Transfer<T> {
     }
 }
 
-/// A transfer ended without a result: a fault of this program.
+/// Error of a transfer that ended without a result: a fault of Azel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the transfer failed inside Azel; look at the unit's folder and try again")]
 pub struct BrokenOff;

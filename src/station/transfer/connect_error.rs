@@ -26,21 +26,21 @@ impl fmt::Display for ConnectStep {
     }
 }
 
-/// Reason why there is no connection. Nothing was changed on the other side.
+/// Reason why there is no connection. Nothing was changed on the host.
 #[derive(Debug, thiserror::Error)]
 pub enum ConnectError {
     #[error("cannot reach it: {source}; check address, port and cable: {peer}")]
     Unreachable { source: io::Error, peer: Peer },
-    /// Cancelled, or no answer in time.
+    /// The attempt was cancelled or timed out.
     #[error(
         "gave up while {step}: {interruption}; check that the right service listens there: {peer}"
     )]
     Interrupted { step: ConnectStep, interruption: Interruption, peer: Peer },
-    /// The other side speaks another protocol, or hung up.
+    /// The host speaks another protocol, or hung up.
     #[error("failed while {step}: {reason}; check that the right service listens there: {peer}")]
     Failed {
         step: ConnectStep,
-        /// Reason in the words of the protocol.
+        /// Reason in the protocol's words.
         reason: String,
         peer: Peer,
     },
@@ -50,13 +50,13 @@ pub enum ConnectError {
          or the firmware of the unit: {peer}"
     )]
     NoAgreement { kind: &'static str, offered: String, peer: Peer },
-    /// A key never seen before: the operator must compare the fingerprint.
+    /// Key that Azel sees for the first time: the operator must compare the fingerprint.
     #[error(
         "the host key is not known yet: {} {}; compare it with the one on the unit, then accept it: {}",
         .0.algorithm(), .0.fingerprint(), .0.address()
     )]
     UnknownHostKey(Box<OfferedKey>),
-    /// A key other than before: refused.
+    /// Key that differs from the pinned keys; Azel refuses it.
     #[error(
         "the host key has changed: it was {}, it is {}; either the unit was replaced or someone is \
          in between; find out before forgetting the old key: {}",
@@ -67,7 +67,7 @@ pub enum ConnectError {
         pinned: Vec<String>,
         offered: Box<OfferedKey>,
     },
-    /// The key was marked as stolen or withdrawn: refused.
+    /// Key marked as stolen or withdrawn; Azel refuses it.
     #[error("the host key is marked as revoked: {}; give the unit a new one: {}", .0.fingerprint(), .0.address())]
     HostKeyRevoked(Box<OfferedKey>),
     #[error(transparent)]
@@ -89,12 +89,12 @@ pub enum ConnectError {
 pub enum KeyFileProblem {
     #[error("{0}; check the path and its permissions")]
     Disk(io::Error),
-    /// The key is locked and no passphrase was given.
+    /// Locked key without a given passphrase.
     #[error("it is locked; type its passphrase")]
     Locked,
     #[error("the passphrase does not open it; type it again")]
     WrongPassphrase,
-    /// Not a private key of a known kind.
+    /// File that is not a private key of a known kind.
     #[error("it is not a private key of a kind known here; use one made by ssh-keygen")]
     Form,
 }

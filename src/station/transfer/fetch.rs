@@ -1,5 +1,5 @@
-//! Test fetch of a source of elements, as a unit would do it, so that the operator sees
-//! beforehand what the unit will get.
+//! Test fetch of a source of elements, done like a unit's fetch. The operator sees beforehand what
+//! the unit will get.
 
 mod ftp;
 mod unit_reading;
@@ -22,18 +22,18 @@ pub use unit_reading::what_a_unit_sees;
 /// Source of a unit's elements on the network.
 #[derive(Debug, Clone)]
 pub enum ElementSource {
-    /// An `http` or `https` address.
+    /// Web address, `http` or `https`.
     Web {
-        /// Address as set in the unit.
+        /// Address in the unit's settings.
         url: String,
     },
-    /// A file on a server.
+    /// File on a server.
     Server {
         peer: Peer,
         protocol: FileProtocol,
         user: String,
         password: SecretString,
-        /// File name, with the folder unless it is the one after log-in.
+        /// File name, with its folder unless it is in the log-in folder.
         file: String,
     },
 }
@@ -43,13 +43,13 @@ pub enum ElementSource {
 pub struct Trust {
     /// Keys of SSH hosts.
     pub known_hosts: KnownHosts,
-    /// Certificate authorities of the station's own FTP servers, in DER, beside the public ones
-    /// and those of the system. For the web only the public ones count.
+    /// Certificate authorities of the station's own FTP servers, in DER. They count beside the
+    /// public and the system's authorities; web fetches use only the public ones.
     pub own_authorities: Vec<CertificateDer<'static>>,
 }
 
 impl Trust {
-    /// Collects all authorities; an unreadable one is left out, with a line in the log.
+    /// Collects all authorities. Skips unreadable ones, with a line in the log.
     fn authorities(&self) -> RootCertStore {
         let mut roots = RootCertStore { roots: webpki_roots::TLS_SERVER_ROOTS.to_vec() };
         let own = self.own_authorities.iter().chain(system_authorities()).cloned();
@@ -64,55 +64,55 @@ impl Trust {
     }
 }
 
-/// Reason why a source gave nothing. Nothing was sent to the unit.
+/// Reason why a fetch failed. Azel sent nothing to the unit.
 #[derive(Debug, thiserror::Error)]
 pub enum FetchError {
     /// No connection, or no log-in.
     #[error(transparent)]
     Connect(#[from] ConnectError),
-    /// Cancelled, or not complete in time.
+    /// The fetch was cancelled, or not complete in time.
     #[error("the file did not arrive: {0}; check the link and try again")]
     Interrupted(#[from] Interruption),
-    /// Not a web address.
+    /// The address is not a valid web address.
     #[error("not an http or https address, or one with a user name in it; correct the address")]
     Address,
-    /// No complete answer.
+    /// The server gave no complete answer.
     #[error("no answer ({0}); check address and link")]
     NoAnswer(String),
-    /// The server redirects the request; it is unknown whether the unit would follow.
+    /// The server redirects the request; a unit may not follow.
     #[error("the server redirects to {destination}; give the unit that address")]
     Redirected {
         /// New address.
         destination: String,
     },
-    /// An HTTP answer other than the file.
+    /// HTTP answer other than the file.
     #[error("the server answered {status} instead of the file; check the address")]
     Status {
-        /// HTTP status code.
+        /// HTTP status code of the answer.
         status: u16,
     },
     #[error("the server has no such file; check its name and folder")]
     NoFile,
     #[error("cannot read the file: {0}")]
     Folder(#[from] FolderError),
-    /// No agreement on TLS.
+    /// The server and Azel found no common TLS settings.
     #[error("no secure connection ({0}); check the server's certificate")]
     Tls(String),
-    /// The server's answer, which belongs to no form of the protocol that is known here.
+    /// The server's answer has no known form of the protocol.
     #[error("the server's answer was not understood ({0}); try SFTP, or another server")]
     NotUnderstood(String),
-    /// The server refused, in its own words.
+    /// The server refused, with its reason.
     #[error("the server refused ({0}); check the file and the user's permissions")]
     Refused(String),
-    /// The file is larger than this program's limit.
+    /// The file exceeds Azel's size limit, bytes.
     #[error("the file is larger than {0} bytes; this is not a file of elements for a unit")]
     TooLarge(u64),
 }
 
-/// The file of a source.
+/// Fetched file of a source.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fetched {
-    /// Its content, unchanged.
+    /// Content of the file, unchanged.
     pub bytes: Vec<u8>,
     /// Old algorithms of the SSH connection; none for other protocols.
     pub old_algorithms: Vec<OldAlgorithm>,
@@ -124,7 +124,7 @@ impl From<Vec<u8>> for Fetched {
     }
 }
 
-/// Fetches the file of `source`. Call it within a runtime that runs no session.
+/// Fetches the file of `source`. Must be called within a runtime that runs no session.
 pub async fn fetch(
     source: &ElementSource,
     trust: &Trust,

@@ -1,4 +1,4 @@
-//! Folder of files on a unit, with the operations that an upload needs.
+//! Folder of files on a unit, with the operations of an upload.
 
 use std::time::Duration;
 
@@ -13,14 +13,14 @@ pub(super) struct FolderFile {
 /// Callback with the number of finished bytes of a file.
 pub(super) type Tell<'a> = &'a mut dyn FnMut(u64);
 
-/// A folder on another computer. Every call ends within its time limit.
+/// Folder on another computer. Every call ends within its timeout.
 pub(super) trait Folder {
-    /// Reads the file `name`, if there is one.
+    /// Reads the file `name`; `None` if there is none.
     async fn read(&mut self, name: &str, tell: Tell<'_>)
     -> Result<Option<FolderFile>, FolderError>;
 
-    /// Writes the file `name`, which must not exist, and syncs it to the disk. Sets its mode
-    /// to `mode` if that is given.
+    /// Writes the file `name`, which must not exist, and syncs it to the disk. Sets its mode to
+    /// `mode` if given.
     async fn write_new(
         &mut self,
         name: &str,
@@ -45,7 +45,7 @@ pub(super) trait Folder {
 /// Reason why an operation in a folder failed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum FolderError {
-    /// The user lacks the right for it.
+    /// The user may not do the operation.
     #[error(
         "the user may not do this in the folder; log in as another user, or ask the person who \
          maintains the unit for permission"
@@ -54,19 +54,19 @@ pub enum FolderError {
     /// The folder or a required file in it is missing.
     #[error("the folder or file is not there; check the path of the folder")]
     Missing,
-    /// The disk has no room for the file.
+    /// The disk is full.
     #[error("its disk has {free_bytes} bytes left; remove files there that are not needed")]
     DiskFull {
         /// Free bytes according to the host.
         free_bytes: u64,
     },
-    /// The file is larger than this program's limit.
+    /// The file exceeds Azel's size limit, bytes.
     #[error("the file is larger than {0} bytes; this is not a file of elements")]
     TooLarge(u64),
-    /// The host refused, in its own words.
+    /// The host refused, with its reason.
     #[error("it refused ({0}); check the folder, its permissions and the free space there")]
     Refused(String),
-    /// This time limit was exceeded.
+    /// The operation exceeded this timeout.
     #[error("no answer within {} s; check the link and try again", .0.as_secs_f64())]
     TimedOut(Duration),
     /// The connection was lost.
@@ -75,7 +75,7 @@ pub enum FolderError {
 }
 
 impl FolderError {
-    /// Returns `true` if the connection is of no further use.
+    /// Returns `true` if the connection can no longer be used.
     pub(super) fn ends_connection(&self) -> bool {
         matches!(self, Self::TimedOut(_) | Self::Lost)
     }

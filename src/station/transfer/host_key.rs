@@ -1,9 +1,8 @@
-//! Pinned host keys: the operator confirms a key once, then it is fixed.
+//! Pinned host keys: Azel accepts only keys that the operator has confirmed for the host.
 //!
-//! The file has OpenSSH's `known_hosts` form, so that it can be read and mended with the
-//! tools that operators know. Host names are in clear. Hashed names, patterns and
-//! certificate authorities, which OpenSSH knows too, match nothing here: for such a host
-//! the operator is asked again.
+//! The file has OpenSSH's `known_hosts` form, so operators can read and correct it with familiar
+//! tools. Host names are in clear text. Azel ignores hashed names, patterns and certificate
+//! authorities, and asks the operator again for such a host.
 
 use std::{
     fs, io,
@@ -30,7 +29,7 @@ impl OfferedKey {
         Self { host: host.to_owned(), port, key }
     }
 
-    /// A key of `host`, for tests.
+    /// Returns a key of `host`, for tests.
     #[cfg(test)]
     pub(crate) fn example(host: &str, port: u16) -> Self {
         let text = "ssh-ed25519 \
@@ -38,17 +37,17 @@ impl OfferedKey {
         Self::new(host, port, PublicKey::from_openssh(text).unwrap())
     }
 
-    /// Fingerprint `SHA256:…`, as `ssh-keygen -l` shows it on the host.
+    /// Returns the fingerprint `SHA256:…`, as `ssh-keygen -l` shows it on the host.
     pub fn fingerprint(&self) -> String {
         fingerprint(&self.key)
     }
 
-    /// Algorithm of the key, such as `ssh-ed25519`.
+    /// Returns the algorithm of the key, such as `ssh-ed25519`.
     pub fn algorithm(&self) -> String {
         self.key.algorithm().to_string()
     }
 
-    /// Name of the host in the file: `unit`, or `[unit]:2222` for ports other than 22.
+    /// Returns the name of the host in the file: `unit`, or `[unit]:2222` for ports other than 22.
     pub fn address(&self) -> String {
         pattern(&self.host, self.port)
     }
@@ -58,30 +57,30 @@ impl OfferedKey {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum KeyVerdict {
     Pinned,
-    /// The host is unknown: the operator must look at the key.
+    /// Unknown host: the operator must check the key.
     Unknown,
-    /// The host has another key: refused.
+    /// Known host with another key; Azel refuses it.
     Changed {
         /// Fingerprints of the pinned keys.
         pinned: Vec<String>,
     },
-    /// The key was marked as stolen or withdrawn: refused.
+    /// Key marked as stolen or withdrawn; Azel refuses it.
     Revoked,
 }
 
-/// Reason why the file cannot be used. It stays unchanged.
+/// Reason why the file cannot be used. The file stays unchanged.
 #[derive(Debug, thiserror::Error)]
 pub enum KnownHostsError {
     #[error("the known host keys cannot be used: {source}; fix the access to {}", path.display())]
     Disk { source: io::Error, path: PathBuf },
-    /// An unreadable line, which may hold the key of any host.
+    /// Unreadable line, which may contain the key of any host.
     #[error("line {line} of the known host keys cannot be read; fix or remove it in {}", path.display())]
     Line {
         /// Line number, from 1.
         line: usize,
         path: PathBuf,
     },
-    /// The key has no text form.
+    /// Key without a text form.
     #[error("the host key of {address} cannot be written down, so it was not accepted")]
     Key {
         /// Host of the key.
@@ -89,19 +88,19 @@ pub enum KnownHostsError {
     },
 }
 
-/// The file of pinned host keys.
+/// File of pinned host keys.
 #[derive(Debug, Clone)]
 pub struct KnownHosts {
     path: PathBuf,
 }
 
 impl KnownHosts {
-    /// `path` need not exist yet.
+    /// Uses the file at `path`, which may not exist yet.
     pub fn new(path: impl Into<PathBuf>) -> Self {
         Self { path: path.into() }
     }
 
-    /// The file of this user; `None` on a machine without a home.
+    /// Returns the file of this user; `None` on a machine without a home folder.
     pub fn of_this_user() -> Option<Self> {
         directories::ProjectDirs::from("", "", "azel")
             .map(|dirs| Self::new(dirs.data_dir().join("known_hosts")))
@@ -129,7 +128,7 @@ impl KnownHosts {
         })
     }
 
-    /// Accepts `offered` for its host from now on, beside any keys it already has.
+    /// Accepts `offered` for its host from now on, in addition to the host's other keys.
     pub fn pin(&self, offered: &OfferedKey) -> Result<(), KnownHostsError> {
         let address = offered.address();
         let mut key = offered.key.clone();
@@ -143,8 +142,7 @@ impl KnownHosts {
         self.write(&format!("{text}{address} {key}\n"))
     }
 
-    /// Removes all keys of the host, for instance after a replacement. Revoked keys stay
-    /// revoked.
+    /// Removes all keys of the host, for instance after a replacement. Revoked keys stay revoked.
     pub fn forget(&self, host: &str, port: u16) -> Result<(), KnownHostsError> {
         let address = pattern(host, port);
         let text = self.text()?;
@@ -156,7 +154,7 @@ impl KnownHosts {
         self.write(&lines)
     }
 
-    /// Algorithms of the pinned keys of the host.
+    /// Returns the algorithms of the host's pinned keys.
     pub(super) fn algorithms(
         &self,
         host: &str,
@@ -167,7 +165,7 @@ impl KnownHosts {
         Ok(pinned.map(|entry| entry.public_key().algorithm()).collect())
     }
 
-    /// All entries for `address`.
+    /// Returns all entries for `address`.
     fn entries(&self, address: &str) -> Result<Vec<Entry>, KnownHostsError> {
         let text = self.text()?;
         let lines = text.lines().map(str::trim).enumerate();

@@ -1,6 +1,6 @@
-//! Recent files of every unit, kept on this computer so that any of them can be put back.
+//! Recent files of all units on this computer, so that Azel can restore each of them.
 //!
-//! Contents are named by their hash; a small TOML file lists units, files and times.
+//! Content files are named by their hash; a small TOML file lists units, files and times.
 
 use std::{
     collections::BTreeSet,
@@ -16,16 +16,16 @@ use crate::{
     whole_file,
 };
 
-/// Version that this program writes. A list of a later version is left alone.
+/// Version that this program writes. Azel leaves a list of a later version unchanged.
 const VERSION: u32 = 1;
-/// Maximum number of versions of one file of one unit.
+/// Max number of stored versions per file and unit.
 const MAX: usize = 20;
 
-/// The list on disk.
+/// List on the disk.
 #[derive(Debug, Serialize, Deserialize)]
 struct List {
     version: u32,
-    /// Oldest first.
+    /// Kept files, oldest first.
     #[serde(rename = "kept", default)]
     kept_files: Vec<KeptFile>,
 }
@@ -35,10 +35,10 @@ struct List {
 pub enum KeptError {
     #[error("{source}; make room or fix the permissions on this computer: {}", path.display())]
     Disk { source: io::Error, path: PathBuf },
-    /// The list is no valid TOML any more.
+    /// The list is not valid TOML.
     #[error("the list of kept files cannot be read: {source}; move it away: {}", path.display())]
     Syntax {
-        /// Error with its place in the text.
+        /// Syntax error with its place in the text.
         source: Box<toml::de::Error>,
         path: PathBuf,
     },
@@ -59,18 +59,18 @@ pub struct KeptFiles {
 }
 
 impl KeptFiles {
-    /// `folder` need not exist yet.
+    /// Uses `folder`, which may not exist yet.
     pub fn new(folder: impl Into<PathBuf>) -> Self {
         Self { folder: folder.into() }
     }
 
-    /// The folder of this user; `None` on a machine without a home.
+    /// Returns the files of this user; `None` on a machine without a home folder.
     pub fn of_this_user() -> Option<Self> {
         directories::ProjectDirs::from("", "", "azel")
             .map(|dirs| Self::new(dirs.data_dir().join("uploads")))
     }
 
-    /// Kept versions of `file` on `unit`, newest first.
+    /// Returns the kept versions of `file` on `unit`, newest first.
     pub fn list(&self, unit: &str, file: &str) -> Result<Vec<KeptFile>, KeptError> {
         let mut kept_files = self.load()?.kept_files;
         kept_files.retain(|one| one.unit == unit && one.file == file);
@@ -78,7 +78,7 @@ impl KeptFiles {
         Ok(kept_files)
     }
 
-    /// Content of `kept_file`, checked, to be put back on the unit.
+    /// Reads and checks the content of `kept_file`, for a roll-back on the unit.
     pub fn read(&self, kept_file: &KeptFile) -> Result<TleFile, KeptError> {
         let path = self.content(kept_file.sha256);
         let bytes = fs::read(&path).map_err(disk_error(&path))?;
@@ -88,7 +88,8 @@ impl KeptFiles {
         Ok(TleFile::from_bytes(bytes))
     }
 
-    /// Keeps a file of a unit. The same content is not kept twice in a row.
+    /// Keeps a file of a unit. Skips a file found on the unit whose content equals the newest
+    /// version.
     pub(super) fn keep(
         &self,
         unit: &str,
@@ -130,7 +131,7 @@ impl KeptFiles {
         Ok(())
     }
 
-    /// Removes contents that the list no longer names.
+    /// Removes content files that the list no longer names.
     fn clear(&self, dropped: &[FileHash], list: &List) {
         let needed: BTreeSet<_> =
             list.kept_files.iter().map(|one| one.sha256.to_string()).collect();

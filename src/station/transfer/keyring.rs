@@ -1,4 +1,4 @@
-//! Passwords at rest, only ever in the keyring of the operating system.
+//! Stored passwords, only in the keyring of the operating system.
 
 use std::{
     collections::BTreeMap,
@@ -23,7 +23,7 @@ const SERVICE: &str = "azel";
 pub struct Account {
     /// User on the host, or path of a key file.
     pub user: String,
-    /// Host and port.
+    /// Host with its port.
     pub address: String,
 }
 
@@ -36,7 +36,7 @@ impl fmt::Display for Account {
 /// Reason why a keyring failed.
 #[derive(Debug, thiserror::Error)]
 pub enum KeyringError {
-    /// No keyring runs or can be reached: the operator is asked each time.
+    /// No keyring can be reached: the operator must type the password each time.
     #[error("there is no keyring on this computer ({0})")]
     Missing(String),
     /// The keyring refused, for instance because it is locked.
@@ -47,10 +47,10 @@ pub enum KeyringError {
     NoAnswer,
 }
 
-/// Store of passwords. Calls may wait for the operator to unlock it: make them on a worker
+/// Store of passwords. Calls may wait for the operator to unlock the store: make them on a worker
 /// thread outside any runtime.
 pub trait Keyring: Send + Sync {
-    /// Secret of `account`, if one is stored.
+    /// Returns the secret of `account`, if one is stored.
     fn get(&self, account: &Account) -> Result<Option<SecretString>, KeyringError>;
     /// Stores the secret of `account` in place of the previous one.
     fn set(&self, account: &Account, secret: &SecretString) -> Result<(), KeyringError>;
@@ -58,8 +58,8 @@ pub trait Keyring: Send + Sync {
     fn remove(&self, account: &Account) -> Result<(), KeyringError>;
 }
 
-/// A keyring that is asked on a thread of its own with a time limit, so that a locked keyring
-/// blocks nobody. At most one thread waits for it at a time.
+/// Keyring behind a timeout, called on its own thread, so that a locked keyring blocks nobody. At
+/// most one thread waits for the keyring at a time.
 #[derive(Clone)]
 pub struct TimedKeyring {
     keyring: Arc<dyn Keyring>,
@@ -100,7 +100,7 @@ impl TimedKeyring {
         let ask = move || {
             let answer = question(&*keyring);
             drop(is_asked);
-            // After the time limit the receiver is gone.
+            // After the timeout, the receiver is gone.
             let _ = send.send(answer);
         };
         let started = thread::Builder::new().name("azel-keyring".to_owned()).spawn(ask);
@@ -115,7 +115,7 @@ impl fmt::Debug for TimedKeyring {
     }
 }
 
-/// Clears the mark when the keyring has answered, or the thread has ended otherwise.
+/// Guard that clears the mark when the keyring has answered or its thread has ended.
 struct AskedMark(Arc<AtomicBool>);
 
 impl Drop for AskedMark {
@@ -158,7 +158,7 @@ impl Keyring for SystemKeyring {
     }
 }
 
-/// Azel's own words: some errors carry the secret that could not be decoded.
+/// Converts an error to Azel's own words: some errors contain the secret that could not be decoded.
 fn keyring_error(error: &Error) -> KeyringError {
     match error {
         Error::PlatformFailure(cause) => KeyringError::Missing(cause.to_string()),
@@ -175,8 +175,7 @@ fn keyring_error(error: &Error) -> KeyringError {
     }
 }
 
-/// A keyring that lasts as long as the program: for a session without another one, and for
-/// tests.
+/// Keyring that lasts until the program ends, for computers without another keyring and for tests.
 #[derive(Debug, Default)]
 pub struct MemoryKeyring {
     secrets: Mutex<BTreeMap<Account, SecretString>>,
@@ -220,7 +219,7 @@ mod tests {
         assert!(keyring.get(&account).unwrap().is_none());
     }
 
-    /// A keyring that answers once its lock is free.
+    /// Keyring that answers once its lock is free.
     struct Locked(Arc<Mutex<()>>);
 
     impl Keyring for Locked {
@@ -250,7 +249,7 @@ mod tests {
             let answer = keyring.get(account.clone());
             assert!(matches!(answer, Err(KeyringError::NoAnswer)));
         }
-        // Held by the keyring and by the one thread that waits.
+        // The keyring and the one waiting thread hold the mark.
         assert_eq!(Arc::strong_count(&keyring.is_asked), 2);
         drop(locked);
         let waits = |keyring: &TimedKeyring| keyring.is_asked.load(Ordering::Acquire);

@@ -1,26 +1,26 @@
-//! Time limits and cancellation: no step waits for ever, and every wait can be cancelled.
+//! Timeouts and cancellation: every wait has a timeout and can be cancelled.
 
 use std::{future::Future, time::Duration};
 
 use tokio_util::sync::CancellationToken;
 
-/// Limits of time and size for a transfer.
+/// Timeouts and size limit of a transfer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// Time for a host to accept the connection.
+    /// Timeout for a host to accept the connection.
     pub connect: Duration,
-    /// Time for the negotiation of the protocol, and again for the log-in.
+    /// Timeout for the negotiation of the protocol, and again for the log-in.
     pub log_in: Duration,
-    /// Time for the answer to one request.
+    /// Timeout for the answer to one request.
     pub request: Duration,
-    /// Time for one whole file, one way.
+    /// Timeout for one whole file in one direction.
     pub file: Duration,
-    /// Maximum size of a file.
+    /// Max size of a file, bytes.
     pub file_bytes: u64,
 }
 
 impl Default for Limits {
-    /// Limits for slow units on slow radio links: 10 s, 20 s, 10 s, 2 min, 16 MB.
+    /// Returns limits for slow units on slow radio links: 10 s, 20 s, 10 s, 2 min, 16 MB.
     fn default() -> Self {
         Self {
             connect: Duration::from_secs(10),
@@ -37,12 +37,12 @@ impl Default for Limits {
 pub enum Interruption {
     #[error("cancelled")]
     Cancelled,
-    /// This time limit was exceeded.
+    /// The wait exceeded this timeout.
     #[error("no answer within {} s", .0.as_secs_f64())]
     TimedOut(Duration),
 }
 
-/// Waits for `work`, at most for `limit`, and not beyond `cancel`.
+/// Waits for `work` until the timeout `limit` or the cancellation.
 pub(super) async fn with_timeout<T>(
     limit: Duration,
     cancel: &CancellationToken,

@@ -6,7 +6,7 @@ use secrecy::{ExposeSecret as _, SecretString};
 
 use crate::{contract::transfer::FileHash, device::ElementFiles};
 
-/// User and proof. `Debug` shows no secret.
+/// User with the proof of identity. `Debug` shows no secret.
 #[derive(Debug, Clone)]
 pub struct Login {
     /// Name of the user on the host.
@@ -14,20 +14,20 @@ pub struct Login {
     pub proof: Proof,
 }
 
-/// Proof of who logs in.
+/// Proof of a user's identity.
 #[derive(Debug, Clone)]
 pub enum Proof {
     Password(SecretString),
     KeyFile {
-        /// A key in OpenSSH's form, or PEM.
+        /// Key file in OpenSSH's form or PEM.
         path: PathBuf,
-        /// Passphrase of the file, if it has one.
+        /// Passphrase of the key file, if it has one.
         passphrase: Option<SecretString>,
     },
 }
 
-/// Returns `true` if `password` is the factory setting of every unit of a make. Tell its user to
-/// change it.
+/// Returns `true` if `password` is the factory password of every unit of a make. The user should
+/// then change it.
 pub fn is_factory_password(password: &SecretString, element_files: &ElementFiles) -> bool {
     let salted =
         SecretString::from(format!("{}:{}", element_files.factory_user, password.expose_secret()));

@@ -14,21 +14,21 @@ use super::{
 };
 use crate::contract::transfer::OldAlgorithm;
 
-/// Bytes that every server accepts and sends in one packet.
+/// Max packet content that every server accepts and sends, bytes.
 const CHUNK_BYTES: usize = 32 << 10;
 /// Bits of a mode for access rights.
 const RIGHTS: u32 = 0o7777;
-/// OpenSSH, `PROTOCOL`, section 4.3: a rename that replaces.
+/// Extension for a rename that replaces (OpenSSH, `PROTOCOL`, section 4.3).
 const POSIX_RENAME: &str = "posix-rename@openssh.com";
-/// OpenSSH, `PROTOCOL`, section 4.6.
+/// Extension for syncing a file (OpenSSH, `PROTOCOL`, section 4.6).
 const FSYNC: &str = "fsync@openssh.com";
-/// OpenSSH, `PROTOCOL`, section 4.4.
+/// Extension for free disk space (OpenSSH, `PROTOCOL`, section 4.4).
 const STATVFS: &str = "statvfs@openssh.com";
 
-/// An open folder on a unit.
+/// Open folder on a unit.
 pub struct SftpFolder {
     sftp: RawSftpSession,
-    /// Keeps the connection of the session open.
+    /// SSH connection, held open for the session.
     ssh: Ssh,
     path: String,
     limits: Limits,
@@ -42,7 +42,7 @@ impl SftpFolder {
         let problem = |error: russh::Error| format!("no file transfer there ({error})");
         let channel = ssh.handle.channel_open_session().await.map_err(problem)?;
         channel.request_subsystem(true, "sftp").await.map_err(problem)?;
-        // In whole seconds; Azel's own limit ends before it.
+        // The library takes whole seconds; Azel's own timeout ends earlier.
         let request_timeout_secs = limits.request.as_secs() + 2;
         let config = Config { request_timeout_secs, ..Config::default() };
         let sftp = RawSftpSession::new_with_config(channel.into_stream(), config);
@@ -60,18 +60,17 @@ impl SftpFolder {
         })
     }
 
-    /// Old algorithms that the connection uses.
+    /// Returns the old algorithms of the connection.
     pub fn old_algorithms(&self) -> &[OldAlgorithm] {
         &self.ssh.old_algorithms
     }
 
-    /// Path of a file in this folder.
+    /// Returns the path of a file in this folder.
     fn path(&self, name: &str) -> String {
         format!("{}/{name}", self.path)
     }
 
-    /// Makes one request, which ends by its answer, its time limit, or the end of the
-    /// connection.
+    /// Makes one request, which ends with its answer, its timeout or the end of the connection.
     async fn answer<T>(
         &self,
         request: impl Future<Output = Result<T, Error>>,
@@ -88,7 +87,7 @@ impl SftpFolder {
         self.answer(request).await?.map_err(|error| folder_error(error, self.limits.request))
     }
 
-    /// Transfers a whole file, one way.
+    /// Transfers a whole file in one direction, within its timeout.
     async fn whole<T>(
         &self,
         work: impl Future<Output = Result<T, FolderError>>,
@@ -163,7 +162,7 @@ impl Folder for SftpFolder {
         let none = FileAttributes::empty();
         let handle = match self.ask(self.sftp.open(path.as_str(), OpenFlags::READ, none)).await {
             Ok(handle) => handle.handle,
-            // A missing folder must not pass for a missing file.
+            // Check the folder: a missing folder must not count as a missing file.
             Err(FolderError::Missing) => {
                 let folder = self.ask(self.sftp.opendir(self.path.as_str())).await?;
                 self.ask(self.sftp.close(folder.handle)).await?;
@@ -234,7 +233,7 @@ impl Folder for SftpFolder {
     }
 }
 
-/// RFC 4251, section 5: a string is its length and its bytes.
+/// Returns a string as its length and its bytes (RFC 4251, section 5).
 fn string(text: &str) -> impl Iterator<Item = u8> {
     (text.len() as u32).to_be_bytes().into_iter().chain(text.bytes())
 }

@@ -26,16 +26,16 @@ use super::{
 };
 use crate::contract::transfer::{AlgorithmPart, OldAlgorithm, Peer};
 
-/// An SSH connection. Dropping it ends it.
+/// SSH connection. Dropping it closes the connection.
 pub(super) struct Ssh {
     pub(super) handle: Handle<Judge>,
-    /// Old algorithms that it uses.
+    /// Old algorithms of the connection.
     pub(super) old_algorithms: Vec<OldAlgorithm>,
 }
 
-/// Opens `folder` on `peer` as `login`. `known_hosts` decides about the host's key before any
-/// secret is sent; an unknown key is returned as an error, to be shown, pinned and tried
-/// again. Call it within a runtime that runs no session: unlocking a key takes a while.
+/// Opens `folder` on `peer` as `login`. `known_hosts` checks the host's key before Azel sends any
+/// secret. An unknown key is an error, so that the operator can pin the key and try again. Must be
+/// called within a runtime that runs no session: unlocking a key takes a while.
 pub async fn open_sftp(
     peer: &Peer,
     folder: &str,
@@ -52,9 +52,8 @@ pub async fn open_sftp(
         .map_err(|reason| failed(ConnectStep::OpenFiles, &reason, peer))
 }
 
-/// Checks the key of `peer` and hangs up, so that nobody is asked for a password that
-/// could not be sent. Returns the old algorithms of the connection. Errors are those of
-/// [`open_sftp`].
+/// Checks the key of `peer` and hangs up. Azel then asks for a password only if the host is right.
+/// Returns the old algorithms of the connection, or an error like [`open_sftp`].
 pub async fn check_host_key(
     peer: &Peer,
     known_hosts: &KnownHosts,
@@ -62,12 +61,12 @@ pub async fn check_host_key(
     cancel: &CancellationToken,
 ) -> Result<Vec<OldAlgorithm>, ConnectError> {
     let ssh = shake_hands(peer, known_hosts, limits, cancel).await?;
-    // The connection may be gone already; then an error says nothing new.
+    // Ignore errors: the connection may already be gone.
     let _ = ssh.handle.disconnect(Disconnect::ByApplication, "", "").await;
     Ok(ssh.old_algorithms)
 }
 
-/// Connects to a host with the right key, without logging in.
+/// Connects to a host and checks its key, without logging in.
 async fn shake_hands(
     peer: &Peer,
     known_hosts: &KnownHosts,
@@ -98,7 +97,7 @@ async fn shake_hands(
             }
             Refused::Ssh(error) => failed(ConnectStep::Handshake, &error, peer),
         })?;
-    // The key exchange is over, so they are known.
+    // The key exchange is complete, so the algorithms are known.
     Ok(Ssh { handle, old_algorithms: old.get().cloned().unwrap_or_default() })
 }
 
@@ -109,7 +108,7 @@ async fn connect(
     limits: Limits,
     cancel: &CancellationToken,
 ) -> Result<Ssh, ConnectError> {
-    // Done first, so that a wrong passphrase costs no connection.
+    // Unlock the key first, so that a wrong passphrase needs no connection.
     let key = match &login.proof {
         Proof::Password(_) => None,
         Proof::KeyFile { path, passphrase } => Some(private_key(path, passphrase.as_ref())?),
@@ -122,7 +121,7 @@ async fn connect(
     match result {
         AuthResult::Success => Ok(ssh),
         AuthResult::Failure { remaining_methods, .. } => {
-            // The connection may be gone already; then an error says nothing new.
+            // Ignore errors: the connection may already be gone.
             let _ = ssh.handle.disconnect(Disconnect::ByApplication, "", "").await;
             let methods: Vec<&str> = remaining_methods.iter().map(Into::into).collect();
             Err(ConnectError::LoginRefused {
@@ -162,8 +161,8 @@ pub(super) fn failed(step: ConnectStep, reason: &impl ToString, peer: &Peer) -> 
     ConnectError::Failed { step, reason: reason.to_string(), peer: peer.clone() }
 }
 
-/// Prefers the algorithms of the pinned keys: otherwise a host with several keys would
-/// seem to have changed when it gets a better one.
+/// Returns a configuration that prefers the algorithms of the pinned keys. Otherwise a host with
+/// several keys would seem changed after getting a better key.
 fn config(pinned: &[Algorithm]) -> client::Config {
     let is_pinned = |kind: &Algorithm| {
         pinned.iter().any(|pinned| {
@@ -187,21 +186,21 @@ fn config(pinned: &[Algorithm]) -> client::Config {
     client::Config { preferred, gex, ..default }
 }
 
-/// Key exchanges that are as good as the default ones.
+/// Key exchanges as good as the default ones.
 const MODERN_KEX: [kex::Name; 3] =
     [kex::ECDH_SHA2_NISTP256, kex::ECDH_SHA2_NISTP384, kex::ECDH_SHA2_NISTP521];
-/// Algorithms of old servers and units, in use only if a server offers nothing better: the client's
-/// order decides (RFC 4253, section 7.1).
+/// Algorithms of old servers and units. They are used only if a server offers nothing better,
+/// because the client's order decides (RFC 4253, section 7.1).
 const OLD_KEX: [kex::Name; 3] = [kex::DH_G14_SHA1, kex::DH_GEX_SHA1, kex::DH_G1_SHA1];
 const OLD_CIPHERS: [cipher::Name; 3] =
     [cipher::AES_256_CBC, cipher::AES_192_CBC, cipher::AES_128_CBC];
 const OLD_MACS: [mac::Name; 2] = [mac::HMAC_SHA1_ETM, mac::HMAC_SHA1];
 const AUTHENTICATING_CIPHERS: [cipher::Name; 3] =
     [cipher::CHACHA20_POLY1305, cipher::AES_256_GCM, cipher::AES_128_GCM];
-/// `ssh-rsa`, which signs with SHA-1. The library itself puts it last.
+/// Algorithm `ssh-rsa`, which signs with SHA-1. The library itself puts it last.
 const OLD_HOST_KEY: Algorithm = Algorithm::Rsa { hash: None };
 
-/// The old algorithms among those that were agreed on.
+/// Returns the old algorithms among the agreed ones.
 fn old_algorithms(names: &Names) -> Vec<OldAlgorithm> {
     let old = |part, is_old: bool, name: &str| {
         is_old.then(|| OldAlgorithm { part, name: name.to_owned() })
@@ -209,7 +208,7 @@ fn old_algorithms(names: &Names) -> Vec<OldAlgorithm> {
     let kex = &names.kex;
     let cipher = &names.cipher;
     let macs = [names.client_mac, names.server_mac];
-    // A cipher that authenticates by itself uses no code, whatever was agreed on.
+    // An authenticating cipher uses no MAC, even if one was agreed on.
     let authenticates = AUTHENTICATING_CIPHERS.contains(cipher);
     let mac = macs.iter().find(|mac| OLD_MACS.contains(mac) && !authenticates);
     [
@@ -233,7 +232,7 @@ async fn log_in(
             let result =
                 handle.authenticate_password(&login.user, password.expose_secret()).await?;
             let AuthResult::Failure { remaining_methods, .. } = &result else { return Ok(result) };
-            // A host that knows passwords has refused this one: a second try could lock the user.
+            // A host that accepts passwords has refused this one: a second try could lock the user.
             let asks = remaining_methods.contains(&MethodKind::KeyboardInteractive)
                 && !remaining_methods.contains(&MethodKind::Password);
             if asks { answer_prompts(handle, &login.user, password).await } else { Ok(result) }
@@ -247,8 +246,8 @@ async fn log_in(
     }
 }
 
-/// Logs in by keyboard-interactive (RFC 4256): answers the one hidden question of a host, which is
-/// that for the password. Others cannot be answered without the operator.
+/// Logs in by keyboard-interactive (RFC 4256): answers a host's single hidden question with the
+/// password. Only the operator could answer other questions.
 async fn answer_prompts(
     handle: &mut Handle<Judge>,
     user: &str,
@@ -278,7 +277,7 @@ async fn answer_prompts(
     Ok(AuthResult::Failure { remaining_methods, partial_success: false })
 }
 
-/// Maximum number of questions of a host.
+/// Max number of questions of a host.
 const MAX_ROUNDS: usize = 5;
 
 fn private_key(path: &Path, passphrase: Option<&SecretString>) -> Result<PrivateKey, ConnectError> {
@@ -296,11 +295,11 @@ fn private_key(path: &Path, passphrase: Option<&SecretString>) -> Result<Private
     })
 }
 
-/// Checks the host's key.
+/// Handler that checks the host's key.
 pub(super) struct Judge {
     known_hosts: KnownHosts,
     peer: Peer,
-    /// Set by the first key exchange. Later ones agree on the same algorithms.
+    /// Old algorithms from the first key exchange; later exchanges agree on the same ones.
     old: Arc<OnceLock<Vec<OldAlgorithm>>>,
 }
 

@@ -1,5 +1,4 @@
-//! Upload of a file of elements to a unit, with proof of the result and without ever
-//! losing the old file.
+//! Upload of an element file to a unit, with proof of the result and without loss of the old file.
 
 mod error;
 mod put;
@@ -16,17 +15,16 @@ use put::Put;
 
 #[derive(Debug, Clone)]
 pub struct Upload {
-    /// Unit that has the folder; kept files are listed under it.
+    /// Unit with the folder; kept files are listed under this unit.
     pub unit: Peer,
     /// Name of the file on the unit.
     pub file: FileName,
-    /// New content. To roll back, use the result of [`KeptFiles::read`].
+    /// New content. For a roll-back, the result of [`KeptFiles::read`].
     pub elements: TleFile,
 }
 
-/// Carries out `upload` in `folder`. Afterwards `kept_files` has both the old and the new file.
-/// `tell` is called with the progress. A cancel is obeyed until the new file takes its
-/// place.
+/// Carries out `upload` in `folder`, and stores the old and the new file in `kept_files`. Calls
+/// `tell` with the progress. A cancel works until the new file takes its place.
 pub async fn upload(
     folder: &mut SftpFolder,
     upload: Upload,
@@ -40,7 +38,7 @@ pub async fn upload(
     let put = Put { folder, file: name, new: elements.bytes(), tell, cancel };
     put.run(&mut |old| kept_files.keep(&address, name, old, clock.utc(), Origin::Found)).await?;
     let time = clock.utc();
-    // The unit has the file either way; only a later roll-back to it is lost.
+    // The unit already has the file; a failure only prevents a later roll-back to it.
     if let Err(error) = kept_files.keep(&address, name, elements.bytes(), time, Origin::Uploaded) {
         tracing::warn!(%error, file = name, "the uploaded file was not kept on this computer");
     }

@@ -1,4 +1,4 @@
-//! The kinds of alarms, how they rank, and which of them say the same.
+//! Kinds of alarms: their priority, and the kinds that mean the same or replace each other.
 
 use crate::{
     contract::{
@@ -51,8 +51,8 @@ pub(super) fn is_momentary(kind: &AlarmKind) -> bool {
     )
 }
 
-/// The kind of a standing alarm once its matter is `present`; `None` if nothing is new. The first
-/// error of an antenna that is off its satellite stays, and so does a cause once it is known.
+/// Returns the new kind of a standing alarm whose matter is now `present`; `None` if nothing is
+/// new. An off-target alarm keeps its first error, and its cause once known.
 pub(super) fn restated(standing: &AlarmKind, present: &AlarmKind) -> Option<AlarmKind> {
     match (standing, present) {
         (AlarmKind::OffTarget { deviation, cause: before }, AlarmKind::OffTarget { cause, .. }) => {
@@ -63,7 +63,8 @@ pub(super) fn restated(standing: &AlarmKind, present: &AlarmKind) -> Option<Alar
     }
 }
 
-/// Compares two alarms, ignoring figures that change while the matter stays.
+/// Returns `true` if two alarms are about the same matter. Ignores figures that change while the
+/// matter stays.
 pub(super) fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
     match (a, b) {
         (AlarmKind::ClockOff(_), AlarmKind::ClockOff(_))
@@ -91,7 +92,7 @@ pub(super) fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
     }
 }
 
-/// Returns `true` if `cause` says all that `effect` says, and why.
+/// Returns `true` if `cause` contains all that `effect` says, and its reason.
 pub(super) fn explains(cause: &AlarmKind, effect: &AlarmKind) -> bool {
     matches!(
         (cause, effect),
@@ -100,8 +101,8 @@ pub(super) fn explains(cause: &AlarmKind, effect: &AlarmKind) -> bool {
     )
 }
 
-/// Returns `true` if `news` says more than `standing`: a unit whose position cannot be read
-/// does answer, and a silent one that moves matters more than its link.
+/// Returns `true` if `news` says more than `standing`: a unit with an unreadable position does
+/// answer, and a silent moving unit matters more than its link.
 pub(super) fn replaces(news: &AlarmKind, standing: &AlarmKind) -> bool {
     matches!(
         (news, standing),
@@ -112,21 +113,21 @@ pub(super) fn replaces(news: &AlarmKind, standing: &AlarmKind) -> bool {
     )
 }
 
-/// Returns `true` if the check behind an alarm is over by now: it is gone, or has another
-/// state. A unit that does not report it may still have the fault.
+/// Returns `true` if the check behind an alarm is gone or has another state. A unit that does not
+/// report the check may still have the fault.
 pub fn is_over(raised: &Check, now: &[Check]) -> bool {
     let same = now.iter().find(|check| check.name == raised.name);
     same.is_none_or(|check| check.state != raised.state && check.state != CheckState::Unknown)
 }
 
-/// The alarm that an event calls for, if any.
+/// Returns the alarm for an event, if it needs one.
 pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
     Some(match event.clone() {
         Event::LinkLost(loss) => AlarmKind::LinkLost(loss),
         Event::StopNotConfirmed => AlarmKind::StopNotConfirmed,
         Event::StopRefused(code) => AlarmKind::StopRefused(code),
-        // `StoppedByFlags` is shown where the motion was asked for; many antennas have such
-        // an axis. The other two stand for as long as the snapshot says so.
+        // The motion's requester sees `StoppedByFlags`, which many antennas report. The other two
+        // alarms follow the snapshot's state.
         Event::Safety(matter)
             if !matches!(
                 matter,

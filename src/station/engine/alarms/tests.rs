@@ -95,7 +95,7 @@ fn another_cause_ends_the_alarm_of_the_one_before() {
     );
 }
 
-/// The states of all rows.
+/// Returns the states of all rows.
 fn states(alarms: &Alarms) -> Vec<AlarmState> {
     alarms.list().iter().map(Alarm::state).collect()
 }

@@ -1,18 +1,18 @@
-//! Summarises the errors of a track that is over.
+//! Summary of a finished track's errors.
 
 use crate::{
     astro::Angle,
     contract::antenna::{ErrorSample, Errors, PastTrack},
 };
 
-/// A track with fewer samples is not worth a look.
+/// Min number of samples for a summary.
 const MIN_POINTS: usize = 5;
 
-/// Interval of the samples that are kept, seconds: a profile shows no more, and the samples of ten polls
-/// a second would fill megabytes.
+/// Interval of kept samples, seconds. A profile shows no more, and samples of ten polls a second
+/// would fill megabytes.
 const INTERVAL_S: f64 = 1.0;
 
-/// The errors of a track that is over, unless there are too few.
+/// Returns the errors of a finished track; `None` if there are fewer than [`MIN_POINTS`].
 pub(super) fn past_track(name: String, errors: &Errors) -> Option<PastTrack> {
     let (first, last) = (*errors.iter().next()?, *errors.back()?);
     let finite = || errors.iter().filter(|error| error.off_beam.is_finite());

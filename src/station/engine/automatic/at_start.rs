@@ -1,4 +1,4 @@
-//! State that the previous run has left, in a file beside the station file. It decides if automatic
+//! State that the previous run left in a file beside the station file. It decides whether automatic
 //! operation may be on from the start.
 
 use std::{collections::BTreeMap, fs, io, path::Path};
@@ -15,17 +15,16 @@ use crate::{
     station::AntennaId,
 };
 
-/// The file is named like the station file, but for this.
+/// Extension that replaces the one of the station file.
 pub(super) const EXTENSION: &str = "automatic.toml";
 
-/// How the last run ended, and which antennas had their automatic operation switched off.
+/// End of the last run, and the antennas whose automatic operation was switched off.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(in crate::engine) struct LastRun {
-    /// The run ended as it should: it did not crash, and no antenna was left moving.
+    /// `true` if the run ended in order: it did not crash, and no antenna was left moving.
     pub(in crate::engine) is_orderly: bool,
-    /// Antennas whose automatic operation was ended, by the operator or otherwise, and not
-    /// switched on again.
+    /// Antennas whose automatic operation was ended and not switched on again.
     pub(in crate::engine) switched_off: Vec<AntennaId>,
     /// Antennas whose automatic operation is on.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -33,10 +32,10 @@ pub(in crate::engine) struct LastRun {
     /// Fingerprint of the station.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) station: Option<FileHash>,
-    /// The pass that was proved last, by antenna: its unit may still be at work on it.
+    /// Last proved pass of each antenna: the unit may still be tracking it.
     #[serde(rename = "held")]
     helds: Vec<HeldPass>,
-    /// The last verified upload to each antenna's unit.
+    /// Last verified upload to each antenna's unit.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     unit_elements: Vec<UnitElements>,
 }
@@ -48,19 +47,20 @@ struct HeldPass {
     aos: Timestamp,
 }
 
-/// The last verified upload to a unit.
+/// Last verified upload to a unit.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::engine) struct UnitElements {
     antenna: AntennaId,
-    /// Address of the unit. Nothing is known about the unit at another address.
+    /// Address of the unit. The entry does not apply to a unit at another address.
     address: String,
     pub(in crate::engine) target: UploadTarget,
-    /// Catalog numbers, and the epochs of their elements.
+    /// Catalog numbers with the epochs of their elements.
     pub(in crate::engine) epochs: Vec<(u32, Timestamp)>,
 }
 
 impl LastRun {
-    /// A file that cannot be read is that of a run whose end is not known.
+    /// Reads the file at `path`. Without a readable file, the end of the last run counts as
+    /// unknown.
     pub(super) fn load(path: &Path) -> Self {
         let read = fs::read_to_string(path).map(|text| toml::from_str(&text));
         match read {
@@ -78,20 +78,19 @@ impl LastRun {
         }
     }
 
-    /// Content of the file.
+    /// Returns the content of the file.
     pub(super) fn text(&self) -> Result<String, toml::ser::Error> {
         toml::to_string(self)
     }
 
-    /// Returns the state that the next start needs of the run that begins now, unless that ends in
-    /// order.
+    /// Returns the state to write at the start of this run. It remains on disk if the run crashes.
     pub(super) fn next_run(self) -> Self {
         let mut next = Self { is_orderly: false, ..self };
         next.forget_switched_on();
         next
     }
 
-    /// The pass that this antenna's unit was last proved to be on its way to.
+    /// Returns the last proved pass of this antenna's unit.
     pub(super) fn held_by(&self, antenna: AntennaId) -> Option<PassListKey> {
         let held_pass = self.helds.iter().find(|held_pass| held_pass.antenna == antenna)?;
         Some((held_pass.satellite, held_pass.aos))
@@ -102,14 +101,14 @@ impl LastRun {
         self.helds.push(HeldPass { antenna, satellite, aos });
     }
 
-    /// The last verified upload to the unit of this antenna at this address.
+    /// Returns the last verified upload to the unit of this antenna at this address.
     pub(super) fn unit_elements(&self, antenna: AntennaId, address: &str) -> Option<&UnitElements> {
         let is_it = |entry: &&UnitElements| entry.antenna == antenna && entry.address == address;
         self.unit_elements.iter().find(is_it)
     }
 
-    /// Records a verified upload. After a roll-back the newer of both epochs counts for each
-    /// satellite: the rule waits for elements newer than those that the operator took back.
+    /// Records a verified upload. After a roll-back, the newer of both epochs counts for each
+    /// satellite: the rule waits for elements newer than the ones that the operator took back.
     pub(super) fn note_upload(
         &mut self,
         (antenna, address): (AntennaId, &str),
@@ -146,7 +145,7 @@ impl LastRun {
         self.switched_on.contains(&antenna)
     }
 
-    /// The next start is no resumption.
+    /// Removes the state that lets the next start resume.
     pub(super) fn forget_switched_on(&mut self) {
         (self.switched_on, self.station) = (Vec::new(), None);
     }
@@ -181,7 +180,7 @@ mod tests {
         assert!(!LastRun::load(&path).allows(AntennaId(1)));
     }
 
-    /// A file as version f93e9bd5 wrote it.
+    /// The text has the form that version f93e9bd5 wrote.
     #[test]
     fn a_file_of_an_earlier_version_means_the_same() {
         let folder = tempfile::tempdir().unwrap();

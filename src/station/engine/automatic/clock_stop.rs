@@ -1,4 +1,5 @@
-//! Continues a program track that a clock step has stopped, once the time service has confirmed the clock.
+//! Resumption of a program track that a clock step has stopped, once the time service confirms the
+//! clock.
 
 use std::time::Duration;
 
@@ -8,10 +9,10 @@ use crate::{
     engine::Engine,
 };
 
-/// A session reports the step and its question at once; they may arrive in two turns.
+/// Max time between a session's report of the step and its question, which may arrive in two turns.
 const SAME_STEP: Duration = Duration::from_secs(1);
 
-/// A program track that waits for the operator since a clock step.
+/// Program track that waits for the operator after a clock step.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ClockStop {
     stepped: Option<Instant>,
@@ -23,7 +24,7 @@ impl ClockStop {
         self.stepped = Some(instant);
     }
 
-    /// Takes the question of a session, which an outage may cause too.
+    /// Notes the question of a session. An outage may also cause such a question.
     pub(super) fn take_question(&mut self, instant: Instant) {
         let is_by_step = self
             .stepped
@@ -35,13 +36,13 @@ impl ClockStop {
 }
 
 impl Engine {
-    /// Answers the question for the operator while automatic operation is on. Automatic operation is
-    /// suspended if no time service keeps the clock.
+    /// Resumes the track of a pass that automatic operation is taking, if the time service
+    /// synchronises the clock.
     pub(super) fn resume_after_step(&mut self, index: usize) {
         let is_kept = self.time_sync == TimeSync::Synchronised;
         let (now, steady) = (self.now, self.steady);
         let Some(antenna) = self.antennas.get_mut(index) else { return };
-        // The clock watch of this turn may have looked before the step.
+        // The clock watch of this turn may have run before the step.
         let is_later = |request_time: Instant| request_time < steady;
         if !antenna.at_work.clock_stop.requested.is_some_and(is_later) {
             return;

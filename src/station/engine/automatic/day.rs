@@ -1,5 +1,5 @@
-//! The list of the day: outcomes of the passes of the schedule, and times when automatic operation
-//! was switched on, off or suspended.
+//! List of the day: outcomes of scheduled passes, and times when automatic operation was switched
+//! on, off or suspended.
 
 use jiff::{Timestamp, tz::TimeZone};
 
@@ -10,20 +10,20 @@ use crate::{
     plan::pass_report::{LossCause, LostStretch, PassReport},
 };
 
-/// Most lines that are kept.
+/// Max number of kept lines.
 const MAX: usize = 400;
-/// Share of a pass within half the beamwidth from which it counts as tracked.
+/// Min share of a pass within half the beamwidth for a tracked pass.
 const TRACKED: f64 = 0.995;
 
-/// A pass of the schedule while it is flown.
+/// Scheduled pass while an antenna flies it.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::engine) struct Flight {
     pub(in crate::engine) duty: Duty,
     name: String,
     proved_at: Option<Timestamp>,
-    /// Up to when it was looked at.
+    /// End of the observed time.
     seen_to: Timestamp,
-    /// When automatic operation did not track it, and why.
+    /// Times when automatic operation did not track the pass, with the reason.
     hindered: Vec<Hindered>,
 }
 
@@ -44,7 +44,7 @@ impl Flight {
         &self.name
     }
 
-    /// Looks at automatic operation of the antenna at `now`.
+    /// Observes the antenna's automatic operation at `now`.
     pub(super) fn see(&mut self, operation: &Operation, observation: Observation, now: Timestamp) {
         let taking = operation.taking();
         let taking = taking.filter(|taking| is_same_pass(taking.pass, self.duty.pass));
@@ -57,7 +57,7 @@ impl Flight {
         let miss_cause = match operation {
             Operation::Off(because) => Some(MissCause::Off(*because)),
             Operation::Suspended { interruption, .. } => Some(MissCause::Suspended(*interruption)),
-            // Its link tells why.
+            // The link's own loss is the reason.
             Operation::On(_) if !observation.is_live => None,
             Operation::On(_) if observation.awaits_operator => Some(MissCause::NotResumed),
             Operation::On(_) => {
@@ -79,7 +79,7 @@ impl Flight {
         }
     }
 
-    /// Returns the outcome by its report; without one nothing was measured.
+    /// Returns the outcome of the pass from its report; without a report, nothing was measured.
     pub(in crate::engine) fn end(self, report: Option<&PassReport>) -> Flown {
         let of_s = self.duty.counted_s;
         let in_beam_s = report.map_or(0.0, |report| report.in_beam_s.min(of_s));
@@ -89,7 +89,8 @@ impl Flight {
         Flown { pass: duty.pass, name, of_s, in_beam_s, proved_at, cause }
     }
 
-    /// The cause of most of what was lost, apart from what the mount had to lose.
+    /// Returns the cause of most of the lost time, leaving out the mount's losses if there are
+    /// others.
     fn cause(&self, report: Option<&PassReport>) -> MissCause {
         let Duty { start, end, .. } = self.duty;
         let nothing = [LostStretch { start, end, cause: LossCause::NotMeasured }];
@@ -125,7 +126,7 @@ impl Flight {
     }
 }
 
-/// Adds a line, and drops those of earlier days (UTC).
+/// Adds a line, and removes lines of earlier days (UTC).
 pub(super) fn add(list: &mut Vec<DayLine>, line: DayLine) {
     let day = |time: Timestamp| time.to_zoned(TimeZone::UTC).date();
     let today = day(line.time);
@@ -165,7 +166,7 @@ mod tests {
         Flight::new(duty, "SAT".to_owned())
     }
 
-    /// A report of that pass with these losses.
+    /// Returns a report of the test pass with these losses.
     fn report(losses: &[(f64, f64, LossCause)]) -> PassReport {
         let losses: Vec<LostStretch> = losses
             .iter()
@@ -187,7 +188,7 @@ mod tests {
         }
     }
 
-    /// Looks once a second at automatic operation.
+    /// Observes automatic operation once a second.
     fn see(flight: &mut Flight, seconds: std::ops::Range<i32>, operation: &Operation) {
         for second in seconds {
             let observation = Observation { is_live: true, ..Observation::default() };

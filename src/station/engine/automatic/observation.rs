@@ -1,4 +1,4 @@
-//! State of an antenna that automatic operation looks at, taken from its snapshot.
+//! State of an antenna for automatic operation, taken from its snapshot.
 
 use super::operation::Observation;
 use crate::{
@@ -17,7 +17,7 @@ pub(super) fn observe(antenna: &AntennaModel, now: Instant) -> Observation {
     let stops =
         matches!(snapshot.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. });
     let takes = antenna.tracked_number().filter(|_| !antenna.tracks_unasked());
-    // Somebody has given the unit another satellite than it was asked to track from here.
+    // Somebody has given the unit another satellite than Azel requested.
     let requested = snapshot.target.as_ref().map(|target| target.catalog_number);
     let is_replaced = antenna.is_live()
         && snapshot.intent == Intent::Track
@@ -47,7 +47,7 @@ pub(super) fn observe(antenna: &AntennaModel, now: Instant) -> Observation {
     }
 }
 
-/// At a limit an axis may report no angle.
+/// Returns the reason why the antenna is not ready. At a limit, an axis may report no angle.
 fn not_ready(snapshot: &Snapshot, axes: usize) -> Option<NotReady> {
     if snapshot.state.motion_lock == Some(true) {
         return Some(NotReady::Fault);
@@ -58,7 +58,7 @@ fn not_ready(snapshot: &Snapshot, axes: usize) -> Option<NotReady> {
     (!has_positions).then_some(NotReady::NoPosition)
 }
 
-/// Something is asked of the antenna from here that may still move it.
+/// Returns `true` if a request of Azel may still move the antenna.
 fn is_asked(snapshot: &Snapshot) -> bool {
     snapshot.intent == Intent::Track
         || snapshot.pending

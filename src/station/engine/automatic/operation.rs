@@ -1,4 +1,4 @@
-//! Next step of automatic operation of one antenna: a state machine without clock, links or
+//! State machine for the next step of an antenna's automatic operation. It has no clock, links or
 //! schedule.
 
 use std::mem;
@@ -17,20 +17,21 @@ use crate::{
     plan::Loss,
 };
 
-/// Automatic operation switches itself off after this many failed passes in a row.
+/// Number of failed passes in a row that switches automatic operation off.
 const FAILURES: u8 = 2;
-/// A pass is given up after this many requests without effect.
+/// Max number of requests without effect before Azel gives a pass up.
 const REQUESTS: u8 = 2;
-/// Automatic operation does not begin a pass with less than this left, seconds.
+/// Min remaining time of a pass for automatic operation to begin the pass, seconds.
 const WORTH_S: f64 = 10.0;
-/// Largest difference in AOS of one pass between two schedules, seconds.
+/// Max difference in AOS of the same pass in two schedules, seconds.
 const SAME_AOS_S: f64 = 60.0;
-/// A unit that tracks unasked is left to whoever did it after this time, seconds.
+/// Duration of a unit's own tracking after which Azel leaves the unit to others, seconds.
 const COASTS_S: f64 = 5.0;
-/// An antenna that is not on its way this many seconds before its pass raises an alarm. Also the
-/// least time between two requests for one pass.
+/// Time before a pass at which an antenna not on its way raises an alarm, seconds. Also the min
+/// time between two requests for one pass.
 pub(super) const LATE_S: f64 = 30.0;
-/// Time before LOS at which a unit that tracks on its own may end: its window has whole seconds.
+/// Max time before LOS at which a unit's own tracking may end, seconds: its window has whole
+/// seconds.
 pub(super) const WINDOW_STEP_S: f64 = 1.0;
 
 /// Returns `true` if the rest of the pass is skipped.
@@ -42,71 +43,70 @@ fn is_skipped(taking: &Taking) -> bool {
 fn is_final(reason: GivenUp) -> bool {
     match reason {
         GivenUp::Refused | GivenUp::OffTarget => true,
-        // A clock or a setting may be corrected before the pass is over.
+        // The operator may correct a clock or a setting before the pass is over.
         GivenUp::WouldMiss => false,
     }
 }
 
-/// A pass that the schedule gives to the antenna.
+/// Pass that the schedule gives to the antenna.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Duty {
     pub pass: PassListKey,
-    /// First and last moment that count.
+    /// First and last time that count.
     #[serde(rename = "from")]
     pub start: Timestamp,
     #[serde(rename = "until")]
     pub end: Timestamp,
-    /// When the antenna is sent there, at the latest.
+    /// Latest time at which Azel sends the antenna to the pass.
     pub go_at: Timestamp,
-    /// Seconds between them that count.
+    /// Seconds between `start` and `end` that count.
     pub counted_s: f64,
-    /// Where the mount loses some of the pass.
+    /// Reason why the mount loses part of the pass.
     pub lost_at: Option<Loss>,
-    /// A part of the pass is left out before `start`, or after `end`.
+    /// `true` if the schedule leaves out a part before `start`, or after `end`.
     pub begins_late: bool,
     pub ends_early: bool,
 }
 
-/// State of the antenna at one moment, as far as it is known.
+/// Known state of the antenna at one moment.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(in crate::engine) struct Observation {
-    /// The unit answers in time.
+    /// `true` if the unit answers in time.
     pub(in crate::engine) is_live: bool,
-    /// No reply has come for longer than a hiccup of the link lasts.
+    /// `true` if the unit has been silent for longer than a hiccup of the link.
     pub(in crate::engine) is_silent: bool,
     pub(in crate::engine) is_locked_out: bool,
-    /// Commands can be sent: no STOP is owed and nothing else forbids them.
+    /// `true` if Azel can send commands: no STOP is owed and nothing else forbids them.
     pub(in crate::engine) can_be_sent: bool,
     /// Reason why the unit cannot begin a pass now.
     pub(in crate::engine) not_ready: Option<NotReady>,
-    /// The satellite that it tracks from here or is on its way to.
+    /// Satellite that the unit tracks for Azel or is on its way to.
     pub(in crate::engine) takes: Option<u32>,
-    /// The satellite in `takes` is proved: the antenna tracks it or is on its way to it.
+    /// `true` if the satellite in `takes` is proved: the antenna tracks it or is on its way to it.
     pub(in crate::engine) is_proved: bool,
-    /// After an outage it waits for the operator's word to track on.
+    /// `true` if the track waits for the operator after an outage.
     pub(in crate::engine) awaits_operator: bool,
-    /// Satellite that the unit tracks on its own, and that can be taken over without a motion.
+    /// Satellite that the unit tracks on its own, and that Azel can take over without a motion.
     pub(in crate::engine) offers: Option<u32>,
-    /// The schedule that is being made may give the antenna what its unit tracks.
+    /// `true` if the schedule being made may give the antenna the satellite that its unit tracks.
     pub(in crate::engine) may_be_planned: bool,
     pub(in crate::engine) moves: bool,
-    /// It turns, and nothing is asked of it: it may end an earlier motion. Until it stands, nothing is
-    /// sent.
+    /// `true` if the antenna turns without a request, for example at the end of an earlier motion.
+    /// Azel sends nothing until it stops.
     pub(in crate::engine) turns_unasked: bool,
-    /// Its unit tracks on its own, or another satellite than it was asked to.
+    /// `true` if the unit tracks on its own, or another satellite than requested.
     pub(in crate::engine) is_moved_elsewhere: bool,
 }
 
-/// How the operator wants it.
+/// Operator's wishes for automatic operation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::engine) struct Wishes {
-    /// Parks between passes where the time allows; `None` where it does not park. Seconds that
-    /// both ways take at most.
+    /// Max duration of both ways for parking between passes, seconds; `None` for no parking.
     pub(in crate::engine) parks_within_s: Option<f64>,
     pub(in crate::engine) longest_rest_s: f64,
     pub(in crate::engine) announced_for_s: f64,
-    /// The pass that automatic operation proved last, in this run or the one before: the unit may
-    /// go on with it on its own.
+    /// Last pass that automatic operation proved, in this run or the previous one. The unit may
+    /// still track it on its own.
     pub(in crate::engine) pass_list_key: Option<PassListKey>,
 }
 
@@ -114,7 +114,7 @@ pub(in crate::engine) struct Wishes {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::engine) enum Act {
     Take(Duty),
-    /// The unit tracks the pass already, and nothing moves.
+    /// Take-over of a pass that the unit already tracks; nothing moves.
     TakeOver(Duty),
     Park,
 }
@@ -124,53 +124,54 @@ pub(in crate::engine) enum Act {
 pub(in crate::engine) enum Outcome {
     /// The pass cannot be loaded or proved, or the unit refused it.
     Failed,
-    /// The path of the unit leads into a barrier.
+    /// The path of the unit leads into a keep-out.
     Blocked,
-    /// The session ended the track, because the antenna stayed off its target.
+    /// The session ended the track because the antenna stayed off its target.
     OffTarget,
-    /// The unit's clock, site or elements would make it miss the pass.
+    /// The unit's clock, site or elements would make the unit miss the pass.
     WouldMiss,
 }
 
-/// Returns `true` if the operator must be alerted, because somebody or something else ended it.
+/// Returns `true` if the operator must be alerted because another cause than the operator ended
+/// automatic operation.
 pub(super) fn is_alarming(reason: OffBecause) -> bool {
     use OffBecause::{Changed, Failures, NotAsLeft, Safety};
     matches!(reason, Safety | Changed | NotAsLeft | Failures)
 }
 
-/// Carries on automatic operation of an antenna. Nothing here has a clock or a link.
+/// Operations of an antenna's automatic operation. They use no clock and no link.
 pub(in crate::engine) trait Operate {
     fn switched_on() -> Self;
 
-    /// Without the time that goes on for as long as the antenna moves.
+    /// Returns the state without the time of the last motion, which changes while the antenna
+    /// moves.
     fn without_motion(self) -> Self;
 
-    /// Returns `true` while it is on and asks nothing of the antenna.
+    /// Returns `true` while automatic operation is on and requests nothing of the antenna.
     fn is_idle(&self) -> bool;
 
-    /// Returns why the unit was not given the current pass.
+    /// Returns the reason why the unit did not get the current pass.
     fn not_ready(&self) -> Option<NotReady>;
 
     /// Returns `true` if the antenna is proved to be on its way to the pass that it takes.
     fn is_proved(&self) -> bool;
 
-    /// Ends it, unless it is off.
+    /// Switches automatic operation off, unless it is already off.
     fn switch_off(&mut self, because: OffBecause);
 
     fn suspend(&mut self, interruption: Interruption, now: Timestamp);
 
-    /// The operator lets it go on.
+    /// Resumes after a suspension, for the operator.
     fn go_on(&mut self, now: Timestamp);
 
-    /// Takes the outcome of the request for the present pass.
+    /// Handles the outcome of the request for the current pass.
     fn take_outcome(&mut self, outcome: Outcome);
 
-    /// The unit ended a motion before its end, and Azel had not. A unit that has not begun its track
-    /// yet has failed to.
+    /// Handles a motion that the unit ended early and Azel did not. If the track had not begun, it
+    /// counts as failed.
     fn ended_by_unit(&mut self, now: Timestamp);
 
-    /// Returns the action for `now`. `duties` are in the order of time; those that are over are
-    /// ignored.
+    /// Returns the action at `now`. `duties` are in order of time; past ones are ignored.
     fn step(
         &mut self,
         duties: &[Duty],
@@ -220,7 +221,7 @@ impl Operate for Operation {
     fn go_on(&mut self, now: Timestamp) {
         if matches!(self, Self::Suspended { .. }) {
             *self = Self::switched_on();
-            // The operator is there, and has just said it.
+            // The operator has just acted, so the next motion needs no announcement.
             if let Self::On(active) = self {
                 active.moved_at = Some(now);
             }
@@ -239,14 +240,14 @@ impl Operate for Operation {
                 active.failures += 1;
                 end_after_failures(self);
             }
-            // A blocked path says nothing about the next pass.
+            // A blocked path does not affect the next pass.
             Outcome::Blocked => taking.given_up = Some(GivenUp::Refused),
             // The antenna must be proved still before the next pass.
             Outcome::OffTarget => taking.given_up = Some(GivenUp::OffTarget),
-            // The unit may be able to take the rest, or the next pass.
+            // The unit may be able to take the rest of the pass, or the next pass.
             Outcome::WouldMiss => {
                 if taking.given_up.is_none() {
-                    // From now on only attempts that have begun count.
+                    // From here on, count only attempts that have begun.
                     taking.requests = 0;
                 }
                 if taking.attempt == Attempt::Begun {
@@ -298,7 +299,7 @@ impl Operate for Operation {
     }
 }
 
-/// Brings the activity up to date.
+/// Updates the activity.
 fn see(active: &mut On, observation: Observation, now: Timestamp) {
     forget_the_future(active, now);
     if !observation.is_moved_elsewhere {
@@ -321,7 +322,7 @@ fn see(active: &mut On, observation: Observation, now: Timestamp) {
             }
         }
         if now >= taking.end {
-            // A track from here counts as proved before the unit has answered to it.
+            // A track from Azel counts as proved before the unit has answered.
             if taking.proved_at.is_some() && taking.given_up.is_none() {
                 active.failures = 0;
             }
@@ -330,7 +331,7 @@ fn see(active: &mut On, observation: Observation, now: Timestamp) {
     }
 }
 
-/// Drops times of the old clock after it was set back.
+/// Removes times after `now`, which come from before the clock was set back.
 fn forget_the_future(active: &mut On, now: Timestamp) {
     active.moved_at = active.moved_at.filter(|time| *time <= now);
     active.moves_since = active.moves_since.filter(|start| *start <= now);
@@ -339,7 +340,7 @@ fn forget_the_future(active: &mut On, now: Timestamp) {
     }
 }
 
-/// The pass of the schedule that the unit tracks on its own, as automatic operation left it.
+/// Returns the scheduled pass that the unit tracks on its own, as automatic operation left it.
 fn found_at_work(
     active: &On,
     duties: &[Duty],
@@ -359,7 +360,7 @@ fn is_moved_for_long(active: &On, now: Timestamp) -> bool {
     active.moves_since.is_some_and(|start| seconds_between(start, now) >= COASTS_S)
 }
 
-/// Seconds since the last motion.
+/// Returns the time since the last motion, seconds.
 fn rest_s(active: &On, now: Timestamp) -> f64 {
     active.moved_at.map_or(f64::INFINITY, |time| seconds_between(time, now))
 }
@@ -382,7 +383,7 @@ fn step(
         }
         return park(active, None, observation, wishes, now);
     };
-    // The operator has it tracked already, from here.
+    // The operator already has Azel tracking this pass.
     if observation.is_live && observation.takes == Some(duty.pass.0) && now >= duty.go_at {
         take(active, duty, 1, now);
         return None;
@@ -416,8 +417,8 @@ fn step(
     })
 }
 
-/// An announcement stands only while its motion can be made and is still the next. One late reply
-/// does not end it: with frequent ones, the warning would begin again for ever.
+/// Withdraws an announcement whose motion is no longer next or no longer possible. A single late
+/// reply does not withdraw it: frequent ones would restart the warning without end.
 fn keep_announcement(
     active: &mut On,
     next: Duty,
@@ -452,8 +453,8 @@ fn take(active: &mut On, duty: Duty, requests: u8, now: Timestamp) {
     });
 }
 
-/// A pass that an outage took away is asked for again once the unit answers and does nothing,
-/// and given up if that leads to nothing.
+/// Requests a pass again that an outage interrupted, once the unit answers and is idle. Gives the
+/// pass up after [`REQUESTS`] attempts.
 fn again(
     active: &mut On,
     taking: Taking,
@@ -464,7 +465,7 @@ fn again(
 ) -> Option<Act> {
     let is_asked = seconds_between(taking.asked_at, now) < LATE_S;
     let is_idle = observation.takes != Some(taking.pass.0) && !observation.moves;
-    // Somebody may stand beside the unit to repair it: announce its next motion.
+    // Somebody may be repairing the unit: announce its next motion.
     if observation.not_ready.is_some() && is_idle && !is_skipped(&taking) {
         (active.doing, active.moved_at) = (Doing::Rests, None);
         return None;
@@ -491,7 +492,7 @@ fn again(
     })
 }
 
-/// Asks again for a pass that the unit would have missed. The session judges what is left of it.
+/// Requests a pass again that the unit would have missed. The session judges the rest of the pass.
 fn judge_again(active: &mut On, duty: Duty, wishes: Wishes, now: Timestamp) -> Option<Act> {
     let is_announced = rest_s(active, now) >= wishes.longest_rest_s;
     let Doing::Takes(taking) = &mut active.doing else { return None };
@@ -509,17 +510,17 @@ fn judge_again(active: &mut On, duty: Duty, wishes: Wishes, now: Timestamp) -> O
         }
         return None;
     }
-    // The unit may have been put right, so that it moves now.
+    // The unit may have been corrected and would now move: announce the motion.
     if is_announced {
         (active.doing, active.moved_at) = (Doing::Rests, None);
         return None;
     }
-    // The reason stands until the unit is proved to take the pass, so that its alarm stands too.
+    // Keep the reason, and with it the alarm, until the unit is proved to take the pass.
     taking.asked_at = now;
     Some(Act::Take(duty))
 }
 
-/// Parks until the next pass, where the time is enough for both ways.
+/// Parks until the next pass if there is time for both ways.
 fn park(
     active: &mut On,
     next: Option<Duty>,
@@ -529,7 +530,7 @@ fn park(
 ) -> Option<Act> {
     let park_s = wishes.parks_within_s?;
     let has_time = next.is_none_or(|duty| seconds_between(now, duty.go_at) > park_s);
-    // After a rest, or before its first pass, it stays where it is: parking is not announced.
+    // After a rest or before its first pass, the antenna stays: Azel does not announce parking.
     let is_awake =
         active.moved_at.is_some_and(|time| seconds_between(time, now) < wishes.longest_rest_s);
     let is_due = matches!(active.doing, Doing::Rests) && is_awake;
@@ -548,7 +549,7 @@ fn end_after_failures(operation: &mut Operation) {
     }
 }
 
-/// Returns `true` if both are one pass: newer elements move its AOS a little.
+/// Returns `true` if both are the same pass: newer elements move its AOS a little.
 pub(in crate::engine) fn is_same_pass(one: PassListKey, other: PassListKey) -> bool {
     one.0 == other.0 && seconds_between(one.1, other.1).abs() < SAME_AOS_S
 }

@@ -1,5 +1,5 @@
-//! Resumes automatic operation after a crash or a power cut, if the station file allows it and the
-//! station is unchanged.
+//! Resumption of automatic operation after a crash or a power cut, if the station file allows it
+//! and the station is unchanged.
 
 use std::time::Duration;
 
@@ -15,17 +15,17 @@ use crate::{
     station::Station,
 };
 
-/// The unit must have been at rest for this long.
+/// Min time at rest before automatic operation resumes.
 const RESTS_FOR: Duration = Duration::from_secs(10);
 
-/// Automatic operation that waits to be switched on again.
+/// Automatic operation that waits to resume.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Resumption {
-    /// Time since which all conditions have held without a break.
+    /// Time since which all conditions have been met.
     ready_since: Option<Instant>,
 }
 
-/// Identifies the content of a station; `None` if it cannot be written.
+/// Returns a hash of the station's content; `None` if the station cannot be written.
 pub(super) fn fingerprint(station: &Station) -> Option<FileHash> {
     toml::to_string(station).ok().map(|text| FileHash::new(text.as_bytes()))
 }
@@ -59,7 +59,7 @@ pub(super) fn ends_with(event: &Event) -> bool {
         | Event::AutoStaysOn
         | Event::AutoTrackNotKnown
         | Event::LockOutUnproved => true,
-        // A unit that only answers badly is judged when its next pass begins.
+        // A unit that answers badly keeps automatic operation on: its next pass decides.
         Event::LinkLost(_)
         | Event::Connected(_)
         | Event::Back { is_explained: true, .. }
@@ -101,7 +101,7 @@ impl Engine {
         for antenna in &mut self.antennas {
             let config = &antenna.shown.config;
             let unit = Unit::new(config);
-            // Somebody moved it by hand, or pressed STOP.
+            // Somebody moved the antenna by hand, or pressed STOP.
             let is_marked = owed.contains(&unit) || debts.is_marked(&unit);
             let is_free = antenna.shown.held_by.is_none()
                 && self.lock_outs.find(&config.connection).is_none()

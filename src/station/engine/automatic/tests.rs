@@ -1,4 +1,4 @@
-//! Automatic operation of a station that has had no turn yet.
+//! Automatic operation of a station before its first turn.
 
 use std::{num::NonZeroU32, sync::Arc};
 
@@ -15,7 +15,8 @@ use crate::{
     station::{self, Antenna as Config, Station},
 };
 
-/// A station whose antenna is on at the start, after a run that ended in order. No unit answers.
+/// Returns a station whose antenna is on at the start, after a run that ended in order. No unit
+/// answers.
 pub(in crate::engine) fn station(folder: &std::path::Path) -> (Engine, PathBuf) {
     let mut config = Config::satrak("Dish", "dish:1");
     config.id = AntennaId(1);

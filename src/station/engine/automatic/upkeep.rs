@@ -1,5 +1,5 @@
-//! Maintenance of a unit between passes, by the rules of its antenna: sets its clock here, and
-//! uploads elements in [`elements`].
+//! Maintenance of a unit between passes, by the rules of its antenna. This module sets the unit's
+//! clock, and [`elements`] uploads elements.
 
 mod elements;
 
@@ -25,17 +25,17 @@ use crate::{
     station::{AntennaId, BetweenPasses, Upkeep},
 };
 
-/// Least time before the antenna sets out, for its clock to be set, seconds.
+/// Min time before departure for setting the unit's clock, seconds.
 const MIN_TIME_FOR_CLOCK_S: f64 = 60.0;
-/// Largest age of a clock reading, seconds.
+/// Max age of a clock reading, seconds.
 const MAX_READING_AGE_S: f64 = 30.0;
-/// Time limit for the unit's answer.
+/// Timeout for the unit's answer.
 const ANSWER_TIMEOUT: Duration = Duration::from_secs(90);
-/// Time until the next attempt where nothing was sent, because the antenna was not at rest.
+/// Pause before the next attempt if Azel sent nothing because the antenna was not at rest.
 const RETRY_AT_REST: Duration = Duration::from_secs(10);
-/// Time between two attempts.
+/// Pause between two attempts.
 const RETRY: Duration = Duration::from_hours(1);
-/// Tickets begin here; those of sessions, uploads and forms are lower.
+/// First ticket of upkeep; tickets of sessions, uploads and forms are lower.
 const TICKETS: u64 = 3 << 62;
 
 /// Upkeep of one unit.
@@ -43,21 +43,21 @@ const TICKETS: u64 = 3 << 62;
 pub(super) struct UpkeepWork {
     setting: Option<ClockChange>,
     tickets: u64,
-    /// When the clock may be set again.
+    /// Earliest time to set the clock again.
     next_setting: Option<Instant>,
-    /// When the elements of the unit are checked again.
+    /// Earliest time to check the unit's elements again.
     next_check: Option<Instant>,
-    /// Checks in a row at which an upload was due, but another one was open.
+    /// Number of checks in a row at which another upload blocked a due one.
     blocked: u32,
 }
 
-/// A clock that is being set.
+/// Pending change of a unit's clock.
 #[derive(Clone, Copy)]
 struct ClockChange {
     ticket: u64,
     group: &'static str,
     sent: Instant,
-    /// `None` for a clock that was never set.
+    /// Error before the change, seconds ahead; `None` for a clock that was never set.
     was_ahead_s: Option<f64>,
 }
 
@@ -88,7 +88,7 @@ impl Engine {
         self.send(index, driver::Command::WriteSettings(change));
     }
 
-    /// The clock of an antenna's unit, and how far it is ahead, if it is to be set now.
+    /// Returns the unit's clock if Azel should set it now, with its error in seconds ahead.
     fn clock_to_set(&self, antenna: &Antenna) -> Option<(&'static ClockSetting, Option<f64>)> {
         let (shown, work) = (&antenna.shown, &antenna.at_work.upkeep);
         let setting = shown.variant().clock?;
@@ -102,8 +102,8 @@ impl Engine {
         is_due.then(|| (setting, clock.is_set.then_some(clock.ahead_s)))
     }
 
-    /// Automatic operation is on, nothing is asked of the antenna, and it does not set out within
-    /// `takes_s` seconds.
+    /// Returns `true` if automatic operation is on and idle, and the antenna does not set out
+    /// within `takes_s` seconds.
     fn is_between_passes(&self, antenna: &AntennaModel, takes_s: f64) -> bool {
         let entries = &self.schedule.schedule.entries;
         antenna.operation.is_idle()
@@ -115,8 +115,8 @@ impl Engine {
             && is_free(entries, antenna.id(), self.now, takes_s)
     }
 
-    /// Returns `true` if the unit takes settings that decide where it points. Switches auto-track of
-    /// automatic operation off first; the next pass switches it on again.
+    /// Returns `true` if the unit takes settings that affect its pointing. Otherwise first switches
+    /// off an auto-track of automatic operation; the next pass switches it on again.
     fn prepare_for_settings(&mut self, index: usize) -> bool {
         let Some(antenna) = self.antennas.get(index) else { return false };
         let shown = &antenna.shown;
@@ -130,7 +130,7 @@ impl Engine {
         }
     }
 
-    /// Takes the unit's answer to a clock that was set.
+    /// Handles the unit's answer to a clock change.
     fn end_clock_change(&mut self, index: usize) {
         let steady = self.steady;
         let Some(antenna) = self.antennas.get_mut(index) else { return };
@@ -141,7 +141,7 @@ impl Engine {
         let day_event = match answer {
             Some(written) => match &written.result {
                 Ok(()) => DayEvent::ClockSet { was_ahead_s: change.was_ahead_s },
-                // At the end of a pass the unit may still be stopped.
+                // At the end of a pass, Azel may still be stopping the unit.
                 Err(WriteError::Hindered { .. }) => {
                     let work = &mut antenna.at_work.upkeep;
                     work.setting = None;
@@ -163,14 +163,14 @@ impl Engine {
     }
 }
 
-/// Returns `true` if a clock that was read a moment ago is surely off by more than the limit.
+/// Returns `true` if a recently read clock is certainly off by more than the limit.
 fn is_clock_off(rule: &Upkeep, clock: UnitClock, now: Timestamp) -> bool {
     let age_s = seconds_between(clock.read_at, now);
     let is_off = !clock.is_set || clock.surely_ahead_s().abs() > rule.clock_limit_s;
     rule.sets_clock && (0.0..=MAX_READING_AGE_S).contains(&age_s) && is_off
 }
 
-/// Returns `true` if no pass of the antenna is under way, and it does not set out for one within
+/// Returns `true` if the antenna has no pass under way, and does not set out for one within
 /// `takes_s` seconds.
 fn is_free(entries: &[Entry], antenna: AntennaId, now: Timestamp, takes_s: f64) -> bool {
     !entries.iter().any(|entry| {

@@ -5,11 +5,11 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Folder of the service on this machine; systemd creates it for the unit.
+/// Folder of the service on this machine; systemd creates it for the service.
 #[cfg(unix)]
 const SERVICE_FOLDER: &str = "/run/azel";
 
-/// A folder for lock files and a socket of this process.
+/// Folder for lock files and a socket of this process.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LockFolder {
     pub path: PathBuf,
@@ -18,14 +18,14 @@ pub struct LockFolder {
 }
 
 impl LockFolder {
-    /// Creates the folder if it is missing, and closes it to others.
+    /// Creates the folder if it is missing, and restricts access to it.
     pub(in crate::engine) fn make(&self) -> io::Result<()> {
         let mut builder = fs::DirBuilder::new();
         builder.recursive(true);
         #[cfg(unix)]
         std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
         builder.create(&self.path)?;
-        // A folder that existed may be open to others.
+        // An existing folder may be open to others.
         #[cfg(unix)]
         {
             use std::os::unix::fs::{PermissionsExt as _, chown};
@@ -39,19 +39,19 @@ impl LockFolder {
     }
 }
 
-/// All folders that matter to a process.
+/// All lock folders of a process.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct LockFolders {
-    /// Folders for its own locks. The first one must work, and has its socket too. The others
-    /// make it known to processes in other environments.
+    /// Folders for this process's locks. The first folder must work and also has the socket. The
+    /// others announce the process to processes in other environments.
     pub own: Vec<LockFolder>,
     /// Folders in which only other processes keep locks.
     pub others: Vec<PathBuf>,
 }
 
 impl LockFolders {
-    /// Returns the folders of this user, or `None` without a home. Processes without
-    /// `XDG_RUNTIME_DIR`, such as jobs of cron, meet the others in the data folder.
+    /// Returns the folders of this user, or `None` without a home folder. Processes without
+    /// `XDG_RUNTIME_DIR`, such as cron jobs, share the data folder with the others.
     pub fn of_user() -> Option<Self> {
         let dirs = directories::ProjectDirs::from("", "", "azel")?;
         let runtime = dirs.runtime_dir().map(Path::to_path_buf);
@@ -59,7 +59,7 @@ impl LockFolders {
         let own: Vec<LockFolder> = paths.map(|path| LockFolder { path, group: None }).collect();
         #[cfg(unix)]
         let others = {
-            // Processes of a log-in keep their locks there.
+            // Processes of a log-in session keep their locks in this folder.
             let log_in = format!("/run/user/{}/azel", nix::unistd::geteuid());
             vec![PathBuf::from(log_in), service_folder()]
         };
@@ -70,8 +70,8 @@ impl LockFolders {
         Some(Self { own, others })
     }
 
-    /// The same for a service whose socket is open to `group`: its first folder is that of the
-    /// service.
+    /// Returns the folders for a service whose socket is open to `group`. The service folder comes
+    /// first.
     #[cfg(unix)]
     #[must_use]
     pub fn open_to(mut self, group: u32) -> Self {
@@ -81,21 +81,21 @@ impl LockFolders {
         self
     }
 
-    /// All folders in which a process may keep locks.
+    /// Returns all folders in which a process may keep locks.
     pub fn paths(&self) -> impl Iterator<Item = &Path> {
         let own = self.own.iter().map(|folder| folder.path.as_path());
         own.chain(self.others.iter().map(PathBuf::as_path))
     }
 }
 
-/// One folder for everything.
+/// Uses one folder for everything.
 impl From<PathBuf> for LockFolders {
     fn from(path: PathBuf) -> Self {
         Self { own: vec![LockFolder { path, group: None }], others: Vec::new() }
     }
 }
 
-/// Folder of the service: that of systemd's `RuntimeDirectory=`.
+/// Returns the folder of the service from systemd's `RuntimeDirectory=`, or [`SERVICE_FOLDER`].
 #[cfg(unix)]
 fn service_folder() -> PathBuf {
     let paths = std::env::var_os("RUNTIME_DIRECTORY");

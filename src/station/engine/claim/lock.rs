@@ -1,5 +1,6 @@
-//! One lock. On Linux it is a name of the whole machine that no user can remove; on every system
-//! it is a locked file too, which says who has it and is all that older versions know.
+//! One lock between processes. On Linux, the lock is a name in the machine's socket namespace that
+//! no user can remove. On every system it is also a locked file, which names the holder; older
+//! versions know only the file.
 
 use std::{
     fs::{self, File, OpenOptions, TryLockError},
@@ -11,7 +12,7 @@ use std::{
 use super::{LockFolder, LockFolders, unpoisoned};
 use crate::contract::claim::HeldBy;
 
-/// Why a lock was not taken.
+/// Reason why a lock was not taken.
 pub(super) enum NotLocked {
     Held(HeldBy),
     Io(io::Error),
@@ -23,14 +24,14 @@ impl From<io::Error> for NotLocked {
     }
 }
 
-/// A lock of this process. The operating system frees it with the process, however that ends.
+/// Lock of this process. The operating system frees it at any end of the process.
 #[derive(Debug)]
 pub(in crate::engine) struct Lock {
     name: String,
-    /// Content of its files: the holder.
+    /// Content of the lock files: the holder.
     text: String,
     files: Mutex<Vec<LockFile>>,
-    /// The process that has locked a file in place of one that was removed.
+    /// Process that has locked a file in place of a removed one.
     mutex: Mutex<Option<HeldBy>>,
     machine: machine::Name,
 }
@@ -63,13 +64,13 @@ impl Lock {
         &self.name
     }
 
-    /// The process that has locked a file in place of one that was removed. Both processes believe
-    /// then that they hold the lock; the other one may be too old to give it up.
+    /// Returns the process that has locked a file in place of a removed one. Both processes then
+    /// believe that they hold the lock; the other one may be too old to give it up.
     pub(in crate::engine) fn taken_by(&self) -> Option<HeldBy> {
         unpoisoned(&self.mutex).clone()
     }
 
-    /// Makes and locks again the files that were removed.
+    /// Recreates and locks files that were removed.
     pub(super) fn renew(&self) {
         self.machine.drain();
         let mut holder = None;
@@ -116,8 +117,8 @@ impl LockFile {
         Ok(Self { folder: folder.clone(), path, file, is_loss_told: false })
     }
 
-    /// Returns `false` if the path leads to another file by now, or to none: the lock of a removed
-    /// file keeps nobody off.
+    /// Returns `false` if the path leads to another file or none: the lock of a removed file
+    /// protects nothing.
     #[cfg(unix)]
     fn is_in_place(&self) -> bool {
         use std::os::unix::fs::MetadataExt as _;
@@ -126,7 +127,7 @@ impl LockFile {
         matches!((self.file.metadata().map(file_id), current), (Ok(ours), Ok(current)) if ours == current)
     }
 
-    /// An open file cannot be removed here.
+    /// Returns `true` if the path exists: an open file cannot be removed on this system.
     #[cfg(not(unix))]
     fn is_in_place(&self) -> bool {
         self.path.exists()
@@ -137,9 +138,9 @@ pub(in crate::engine) fn file_path(folder: &Path, name: &str) -> PathBuf {
     folder.join(format!("{name}.lock"))
 }
 
-/// The process that has locked the file at `path`, if any has.
+/// Returns the process that has locked the file at `path`.
 pub(in crate::engine) fn holder_of(path: &Path) -> Option<HeldBy> {
-    // A descriptor for reading is enough, and the file may be another user's.
+    // A shared lock needs only read access, and another user may own the file.
     let mut file = File::open(path).ok()?;
     match file.try_lock_shared() {
         Err(TryLockError::WouldBlock) => Some(HeldBy::Azel(super::read_holder(&mut file))),
@@ -147,13 +148,13 @@ pub(in crate::engine) fn holder_of(path: &Path) -> Option<HeldBy> {
     }
 }
 
-/// The process that has the lock called `name`, as its files tell.
+/// Returns the process that has the lock called `name`, from its files.
 fn holder_in(name: &str, folders: &LockFolders) -> HeldBy {
     let mut files = folders.paths().map(|folder| file_path(folder, name));
     files.find_map(|path| holder_of(&path)).unwrap_or(HeldBy::Azel(None))
 }
 
-/// The process that has the lock called `name`, if any has.
+/// Returns the process that has the lock called `name`.
 pub(super) fn holder_of_name(name: &str, folders: &LockFolders) -> Option<HeldBy> {
     let is_taken =
         machine::Name::take(name).is_err_and(|error| error.kind() == io::ErrorKind::AddrInUse);
@@ -165,9 +166,9 @@ pub(super) fn holder_of_name(name: &str, folders: &LockFolders) -> Option<HeldBy
 
 #[cfg(target_os = "linux")]
 pub(in crate::engine) mod machine {
-    //! Names in the abstract namespace for sockets: one for the machine (more exactly, for each
-    //! network namespace, as for the units that can be reached), without a file that somebody could
-    //! remove. The system tells each process that connects who listens.
+    //! Names in Linux's abstract socket namespace. One namespace covers the machine (more exactly,
+    //! a network namespace, like the reachable units), and nobody can remove a name. Linux tells a
+    //! connecting process who listens.
 
     use std::{
         io,
@@ -177,7 +178,7 @@ pub(in crate::engine) mod machine {
         },
     };
 
-    /// Maximum number of waiting connections, by Linux's default.
+    /// Max number of pending connections, the default of Linux.
     const QUEUE: usize = 4096;
 
     #[derive(Debug)]
@@ -191,7 +192,8 @@ pub(in crate::engine) mod machine {
             Ok(Self(listener))
         }
 
-        /// Closes the connections of processes that looked who listens, before they fill the queue.
+        /// Accepts and closes the connections of processes that asked who listens, before they fill
+        /// the queue.
         pub(in crate::engine::claim) fn drain(&self) {
             for _ in 0..QUEUE {
                 if self.0.accept().is_err() {
@@ -201,7 +203,7 @@ pub(in crate::engine) mod machine {
         }
     }
 
-    /// The name of a lock among the names of all programs.
+    /// Returns the socket name of a lock, with a prefix that tells it from other programs' names.
     pub(in crate::engine) fn address(name: &str) -> String {
         format!("azel/{name}")
     }
@@ -209,7 +211,7 @@ pub(in crate::engine) mod machine {
 
 #[cfg(not(target_os = "linux"))]
 mod machine {
-    //! Other systems have no names that nobody can remove: there the files are all.
+    //! Stand-in for other systems, which have no such names: only files lock there.
 
     #[derive(Debug)]
     pub(super) struct Name;
@@ -233,7 +235,7 @@ mod tests {
         Lock::take(name, "{}".to_owned(), folders)
     }
 
-    /// A name that no other test takes on this machine.
+    /// Returns a name that no other test uses on this machine.
     fn name(folder: &Path) -> String {
         format!("test-{}", folder.file_name().unwrap().display())
     }

@@ -1,4 +1,4 @@
-//! The rules of control: who gets it from whom, and when it ends.
+//! Rules of control: who takes it from whom, and when it ends.
 
 use std::{
     net::{IpAddr, SocketAddr},
@@ -15,9 +15,9 @@ use crate::{
     },
 };
 
-/// A client in control that sends no line for this long loses it.
+/// Max silence of a client in control; after it, the client loses control.
 const LAPSES_AFTER: Duration = Duration::from_secs(10);
-/// Time in which an allowed client may come back: Gpredict hangs up 3.6 s after a refusal, and its
+/// Time in which an allowed client may reconnect: Gpredict hangs up 3.6 s after a refusal, and its
 /// user engages it again.
 const COMES_BACK_WITHIN: Duration = Duration::from_mins(1);
 /// Time for which the operator can still decide about a program that has hung up.
@@ -31,7 +31,7 @@ const MAX_LINE: usize = 64;
 pub(in crate::engine) enum Loss {
     /// No client lost control.
     None,
-    /// A client lost it.
+    /// A client lost control.
     Client,
 }
 
@@ -43,8 +43,7 @@ impl BitOrAssign for Loss {
     }
 }
 
-/// Party behind a command; `None` for the station itself, which hands control to nobody when it
-/// stops an antenna.
+/// Returns the party behind a command; `None` for the station, whose stops hand control to nobody.
 pub(super) fn party_of(origin: CommandOrigin) -> Option<Party> {
     match origin {
         CommandOrigin::Window => Some(Party::Window),
@@ -57,32 +56,32 @@ pub(super) fn party_of(origin: CommandOrigin) -> Option<Party> {
 }
 
 pub(in crate::engine) trait Rules {
-    /// Gives control to `party`, or to nobody. A client that loses it needs a new decision of the
-    /// operator, because it goes on commanding.
+    /// Gives control to `party`, or to nobody. A client that loses control needs a new permission
+    /// from the operator, because it continues to send commands.
     fn give(&mut self, party: Option<Party>, now: Moment) -> Loss;
-    /// Automatic operation is in control while it is on, and only then.
+    /// Gives control to automatic operation exactly while it is on.
     fn follow_operation(&mut self, is_on: bool, now: Moment) -> Loss;
-    /// Gives control to a client that commands, or returns the reason not to.
+    /// Gives control to a client that sends a command, or returns the reason for a refusal.
     fn admit_client(&mut self, address: SocketAddr, now: Moment) -> Result<(), Refusal>;
-    /// The operator lets a client point and hands control to it.
+    /// Permits a client to point the antenna and hands control to it, for the operator.
     fn hand_over(&mut self, address: SocketAddr, now: Moment) -> Loss;
-    /// A program has connected. It is allowed if it was expected.
+    /// Adds a connected program, and permits it if it was expected.
     fn connected(&mut self, client: NetworkClient, now: Moment);
-    /// The operator has allowed the address of a client for good.
+    /// Permits the address of a client without time limit.
     fn allow(&mut self, address: SocketAddr);
-    /// A client has sent a line.
+    /// Notes a line from a client.
     fn heard(&mut self, address: SocketAddr, line: &str, time: Instant);
-    /// A connection has ended.
+    /// Removes an ended connection.
     fn disconnected(&mut self, address: SocketAddr, now: Moment) -> Loss;
-    /// A client in control that is silent loses it; it may take it again.
+    /// Takes control from a silent client, which may take it again.
     fn lapse(&mut self, now: Moment) -> Loss;
-    /// A client without control has sent a stop.
+    /// Counts a stop from a client without control.
     fn ignore_stop(&mut self, address: SocketAddr);
-    /// STOP has ended every motion. Its party is in control, so that no client begins another one.
+    /// Gives control to the party that sent STOP, so that no client begins another motion.
     fn give_by_stop(&mut self, origin: CommandOrigin, now: Moment);
     /// Returns `true` if a client waits for the answer to this command.
     fn awaits(&self, number: u64) -> bool;
-    /// A client waits for the answer to this command.
+    /// Notes that a client waits for the answer to this command.
     fn expect_answer(&mut self, address: SocketAddr, number: u64);
     fn answered(&mut self, answer: &Answer);
 }
@@ -111,7 +110,7 @@ impl Rules for Control {
 
     fn admit_client(&mut self, address: SocketAddr, now: Moment) -> Result<(), Refusal> {
         let party = self.party;
-        // The last commands of a connection may come after its end.
+        // The last commands of a connection may arrive after its end.
         let client = client_mut(self, address).ok_or(Refusal::ClientGone)?;
         let refusal = match party {
             Some(party) if party == Party::Program(address) => return Ok(()),
@@ -136,7 +135,7 @@ impl Rules for Control {
         }
         let Some(client) = client_mut(self, address) else { return Loss::None };
         client.asks_since = None;
-        // Its silence counts from here: it may have sent nothing while it was refused.
+        // Count the client's silence from here: it may have sent nothing while refused.
         let line = client.last_line.take().map(|(line, _)| line).unwrap_or_default();
         client.last_line = Some((line, now.steady));
         let loss = self.give(Some(Party::Program(address)), now);
@@ -196,7 +195,7 @@ impl Rules for Control {
     }
 
     fn give_by_stop(&mut self, origin: CommandOrigin, now: Moment) {
-        // The motion of a client is over: nothing is left to be ended.
+        // STOP has already ended the motion of a client that loses control.
         let _ = self.give(party_of(origin), now);
     }
 
@@ -232,7 +231,7 @@ fn expect(control: &mut Control, address: IpAddr, now: Moment) {
     control.expected = Some(Expected { address, end: now.steady + COMES_BACK_WITHIN });
 }
 
-/// The client gives up control, if it has it.
+/// Takes control from the client, if it has control.
 fn leave(control: &mut Control, address: SocketAddr) -> Loss {
     if control.party != Some(Party::Program(address)) {
         return Loss::None;
@@ -314,7 +313,7 @@ mod tests {
             assert_eq!(scene.admit(client), Err(Refusal::InControl(party)));
             assert_eq!(scene.control.give(None, scene.now), Loss::None);
             assert_eq!(scene.admit(client), Err(Refusal::NotAllowed));
-            // Nor does a new connection help.
+            // A new connection does not help either.
             assert_eq!(scene.control.disconnected(client, scene.now), Loss::None);
             let again = scene.connect(2);
             assert_eq!(scene.admit(again), Err(Refusal::NotAllowed));
@@ -334,7 +333,7 @@ mod tests {
         scene.pass(10);
         assert_eq!(scene.control.lapse(scene.now), Loss::Client);
         assert_eq!(scene.control.party, None);
-        // It may take control again.
+        // The client may take control again.
         assert_eq!(scene.admit(client), Ok(()));
     }
 

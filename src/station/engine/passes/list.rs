@@ -1,5 +1,5 @@
-//! A pass list, and the search for the next one in the background. A list stays until the
-//! next one is complete.
+//! Pass list, and the background search for the next one. A list stays until the next list is
+//! complete.
 
 use std::sync::{Arc, atomic::Ordering};
 
@@ -13,10 +13,10 @@ use crate::{
     orbit::Elements,
 };
 
-/// Age at which a list is made anew.
+/// Max age of a list before a new search, seconds.
 const STALE_S: f64 = 600.0;
 
-/// A list, and the search for the next one.
+/// Current list, and the search for the next one.
 #[derive(Default)]
 pub(in crate::engine) struct Search {
     pub(super) list: PassList,
@@ -34,7 +34,7 @@ struct Running {
 }
 
 impl Search {
-    /// The list, with the state of the search for the next one.
+    /// Returns the list, with the state of the search for the next one.
     pub(super) fn shown(&self) -> PassList {
         let work = match (&self.running, &self.halted) {
             (Some(Running { progress, .. }), _) => Work::UnderWay {
@@ -47,24 +47,23 @@ impl Search {
         PassList { work, ..self.list.clone() }
     }
 
-    /// Returns `true` if the last search broke off. The previous list stays.
+    /// Returns `true` if the last search broke off. The previous list then stays.
     pub(in crate::engine) fn broke_off(&self) -> bool {
         self.broke_off
     }
 
-    /// Ends the search under way. The next one begins when the operator wants it or the
-    /// search key changes.
+    /// Ends the current search. The next one begins when the operator asks for it or the search key
+    /// changes.
     pub(in crate::engine) fn cancel(&mut self) {
         self.halted = self.running.take().map(|search| search.key);
     }
 
-    /// Restarts the cancelled search with the next refresh.
+    /// Lets the next refresh restart the cancelled search.
     pub(in crate::engine) fn resume(&mut self) {
         self.halted = None;
     }
 
-    /// Takes a finished list, and begins a new search when the list was made for another
-    /// key or has grown old.
+    /// Adopts a finished list, and begins a new search if the list has another key or is too old.
     pub(super) fn refresh(&mut self, key: &SearchKey, now: Timestamp, wake: &Wake) {
         self.take_finished();
         let is_young = |time: Timestamp| seconds_between(time, now).abs() < STALE_S;
@@ -80,8 +79,7 @@ impl Search {
         }
     }
 
-    /// Ends the search, and drops the list if it was made for another observer than that of
-    /// `key`.
+    /// Ends the search, and drops the list if its observer differs from the one of `key`.
     pub(super) fn keep_only_from(&mut self, key: &SearchKey) {
         self.running = None;
         if self.made_of.as_ref().is_some_and(|made_of| made_of.observer != key.observer) {
@@ -91,7 +89,7 @@ impl Search {
     }
 
     fn begin(&mut self, key: &SearchKey, now: Timestamp, wake: &Wake) {
-        // Preparing a whole catalog takes as long as many searches.
+        // Reuse prepared satellites: preparing a whole catalog takes as long as many searches.
         let is_prepared = |made_of: &&SearchKey| made_of.has_satellites_of(key);
         let prepared = self.made_of.as_ref().filter(is_prepared);
         let prepared = prepared.map(|_| Arc::clone(&self.list.satellites));
@@ -108,8 +106,7 @@ impl Search {
             return;
         };
         let Ok(found) = end else {
-            // The same elements would break the next search too: only the operator restarts
-            // it.
+            // The same elements would also break the next search, so only the operator restarts it.
             self.cancel();
             self.broke_off = true;
             return;
@@ -127,7 +124,7 @@ impl Search {
     }
 }
 
-/// The list that a search for `key` at `made_at` makes of these elements, on this thread.
+/// Makes the list of a search for `key` at `made_at` from these elements, on this thread.
 pub(super) fn again(
     key: &SearchKey,
     elements: &[Elements],

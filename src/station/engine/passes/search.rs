@@ -1,5 +1,4 @@
-//! The search for the passes of a list, on a thread of its own with the work shared among
-//! the thread pool.
+//! Search for the passes of a list, on its own thread; the thread pool shares the work.
 
 use std::sync::{
     Arc,
@@ -16,22 +15,22 @@ use crate::{
     orbit::{Catalog, Elements, PassSearch, Propagator, passes_of_all},
 };
 
-/// Time before now from which passes are searched: a pass under way began later, except
-/// with satellites that hardly move.
+/// Time before now at which the search starts, seconds. A pass under way began later, except with
+/// satellites that hardly move.
 const LOOK_BACK_S: f64 = 3600.0;
 /// Number of progress reports to the station.
 const STEPS: usize = 100;
 
-/// The satellites whose passes are searched for.
+/// Satellites to search passes for.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum SearchScope {
-    /// These catalog numbers, in this order.
+    /// Satellites with these catalog numbers, in this order.
     Favourites(Arc<[u32]>),
     /// All satellites of the catalog.
     All,
 }
 
-/// Everything that the passes of a list depend on, except the time.
+/// All inputs of a pass list, except the time.
 #[derive(Clone)]
 pub(super) struct SearchKey {
     pub(super) catalog: Arc<Catalog>,
@@ -51,7 +50,7 @@ impl PartialEq for SearchKey {
 }
 
 impl SearchKey {
-    /// Returns `true` if the satellites are the same, with the same elements.
+    /// Returns `true` if the other key has the same satellites with the same elements.
     pub(super) fn has_satellites_of(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.catalog, &other.catalog) && self.scope == other.scope
     }
@@ -95,7 +94,7 @@ pub(super) struct Found {
     pub(super) passes: Vec<PredictedPass>,
 }
 
-/// Searches from `now` on. `satellites` are those of `key`, if they were prepared before.
+/// Searches for passes from `now` on. `satellites` are the prepared satellites of `key`, if known.
 pub(super) fn search(
     key: &SearchKey,
     satellites: Option<Arc<Vec<Arc<ListedSatellite>>>>,
@@ -130,7 +129,7 @@ pub(super) fn search(
             Some(PredictedPass::new(satellite, pass, Arc::clone(observer)))
         })
         .collect();
-    // Satellites that never set would hide the first pass.
+    // Sort satellites that never set last: they would hide the first pass.
     passes.par_sort_by_key(|predicted| {
         let is_always_up = predicted.is_always_up();
         let aos = (!is_always_up).then_some(predicted.pass.aos.time);

@@ -19,7 +19,7 @@ fn now() -> Timestamp {
     "2026-08-12T11:15:30Z".parse().unwrap()
 }
 
-/// Lists of a station with one favourite, from a small catalog.
+/// Lists of a station with one favourite and a small catalog.
 struct Fixture {
     searches: Searches,
     pass_lists: PassLists,
@@ -57,7 +57,7 @@ impl Fixture {
         }
     }
 
-    /// The station, as a new one.
+    /// Returns the station as a new value, which changes the search key.
     fn station(&mut self) -> &mut Station {
         Arc::make_mut(&mut self.station)
     }
@@ -68,7 +68,7 @@ impl Fixture {
         self.pass_lists = self.searches.shown();
     }
 
-    /// Refreshes until no search is under way.
+    /// Refreshes until no search is running.
     fn finish(&mut self) {
         self.refresh();
         while [Scope::Favourites, Scope::All]
@@ -98,7 +98,7 @@ fn all_satellites_are_listed_and_found_and_the_followed_ones_stay_apart() {
     let shifted = (key.0, add_seconds(key.1, 2.0));
     assert_eq!(fixture.pass_lists.find(shifted).map(PredictedPass::key), Some(key));
     assert!(fixture.pass_lists.find((key.0, add_seconds(key.1, 600.0))).is_none());
-    // A pass that never sets is found, whenever it began in an older list.
+    // A pass that never sets is found even if an older list had another AOS.
     let always = (METEOSAT_12, add_seconds(now(), -100_000.0));
     assert!(fixture.pass_lists.find(always).is_some());
     assert!(

@@ -1,5 +1,5 @@
-//! The connections of all ports, as the station sees them. A line changes nothing but its entry,
-//! so that no number of lines makes work for the station.
+//! Connections of all ports, for the station. A line changes only its connection's entry, so any
+//! number of lines causes no work for the station.
 
 use std::{
     net::SocketAddr,
@@ -15,10 +15,10 @@ use tokio::sync::Notify;
 use super::MAX_CONNECTIONS;
 use crate::{clock::Instant, job::Wake, station::AntennaId};
 
-/// A connection that was silent for this long makes room for another one if none is free.
+/// Min silence after which a connection makes room for a new one at a full port.
 const MAKES_ROOM: Duration = Duration::from_mins(1);
 
-/// A connection of a port.
+/// Connection of a port.
 #[derive(Clone)]
 pub(in crate::engine) struct Entry {
     number: u64,
@@ -26,12 +26,12 @@ pub(in crate::engine) struct Entry {
     pub(in crate::engine) peer: SocketAddr,
     pub(in crate::engine) program: Option<String>,
     pub(in crate::engine) last_line: Option<(String, Instant)>,
-    /// Time of the last line, or of the begin.
+    /// Time of the last line, or of the start.
     heard: Instant,
     end: Arc<Notify>,
 }
 
-/// The list of connections.
+/// List of connections.
 #[derive(Clone)]
 pub(in crate::engine) struct Board {
     entries: Arc<Mutex<Vec<Entry>>>,
@@ -40,13 +40,13 @@ pub(in crate::engine) struct Board {
 }
 
 impl Board {
-    /// An empty board, which calls `wake` when a connection begins or ends.
+    /// Creates an empty board, which calls `wake` when a connection begins or ends.
     pub(in crate::engine) fn new(wake: Wake) -> Self {
         Self { entries: Arc::default(), numbers: Arc::default(), wake }
     }
 
     fn entries(&self) -> MutexGuard<'_, Vec<Entry>> {
-        // No code panics while it holds the lock.
+        // No code panics while it holds this lock, so the data is valid even if poisoned.
         self.entries.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -54,7 +54,7 @@ impl Board {
         (self.wake)();
     }
 
-    /// The present connections to an antenna.
+    /// Returns the current connections to an antenna.
     pub(in crate::engine) fn connections(&self, antenna: AntennaId) -> Vec<Entry> {
         let entries = self.entries();
         entries.iter().filter(|entry| entry.antenna == antenna).cloned().collect()
@@ -67,7 +67,7 @@ impl Board {
         }
     }
 
-    /// A place for a new connection; `None` if all are taken by programs that send lines.
+    /// Returns a place for a new connection; `None` if active connections occupy all places.
     pub(in crate::engine) fn seat(
         &self,
         antenna: AntennaId,
@@ -98,7 +98,7 @@ impl Board {
     }
 }
 
-/// The place of one connection. Dropping it takes the connection off the board.
+/// Place of one connection. Dropping it removes the connection from the board.
 pub(in crate::engine) struct Seat {
     board: Board,
     number: u64,
@@ -108,7 +108,7 @@ pub(in crate::engine) struct Seat {
 }
 
 impl Seat {
-    /// Notes a line.
+    /// Notes a line as the last one of the connection.
     pub(super) fn heard(&self, line: &str, now: Instant) {
         let mut entries = self.board.entries();
         if let Some(entry) = entries.iter_mut().find(|entry| entry.number == self.number) {
@@ -117,7 +117,7 @@ impl Seat {
         }
     }
 
-    /// Waits until the connection has to end.
+    /// Waits until the connection must end.
     pub(super) async fn ended(&self) {
         self.end.notified().await;
     }

@@ -1,5 +1,5 @@
-//! One connection: reads lines, answers each at once, and never waits for a client that does not
-//! read.
+//! One connection of a port: reads lines and answers them. It never waits for a client that does
+//! not read.
 
 use std::{future::poll_fn, pin::Pin, task::Poll, time::Duration};
 
@@ -20,16 +20,16 @@ use crate::{
     station::Mount,
 };
 
-/// Bytes that are read at once.
+/// Max number of bytes per read.
 const READS: usize = 4096;
-/// A command without its line feed is taken after this time.
+/// Time after which a command without a line feed counts as complete.
 const LINE_ENDS: Duration = Duration::from_secs(2);
-/// Lines that are answered in a second. Gpredict, the quickest client that is known, sends four.
+/// Max number of answered lines per second. Gpredict, the quickest known client, sends four.
 const LINES_PER_SECOND: u32 = 100;
-/// Longest wait for the station's answer to a motion. libhamlib waits for 2 s in all.
+/// Timeout for the station's answer to a motion. libhamlib waits for 2 s in total.
 const ANSWERS_WITHIN: Duration = Duration::from_millis(1500);
 
-/// Serves one client until it hangs up, is told to, or the station ends.
+/// Serves one client until it hangs up, the port closes or the station ends.
 pub(in crate::engine) async fn converse(
     stream: impl AsyncRead + AsyncWrite,
     seat: Seat,
@@ -49,7 +49,7 @@ pub(in crate::engine) async fn converse(
     connection.serve(reader, writer).await;
 }
 
-/// A turn by `\move`, which is repeated until it ends.
+/// Turn from `\move`, which Azel repeats until the turn ends.
 struct Turn {
     rates_deg_s: [f64; 2],
     next: Instant,
@@ -60,12 +60,12 @@ struct Connection {
     station: Client,
     lines: Lines,
     turning: Option<Turn>,
-    /// The last accepted position: clients repeat it until the antenna is there.
+    /// Last accepted position: clients repeat it until the antenna has arrived.
     pointed: Option<AzEl>,
     budget: Budget,
 }
 
-/// Lines that may still be answered in the present second.
+/// Number of lines answered in the current second, and its start.
 #[derive(Default)]
 struct Budget {
     second: Option<Instant>,
@@ -73,7 +73,7 @@ struct Budget {
 }
 
 impl Budget {
-    /// Time to wait before the next line.
+    /// Counts a line, and returns the pause before Azel answers it.
     fn take(&mut self, now: Instant) -> Option<Duration> {
         let second = *self.second.get_or_insert(now);
         let spent = now.saturating_duration_since(second);
@@ -88,7 +88,7 @@ impl Budget {
 /// Input of a connection.
 enum Input {
     Bytes(usize),
-    /// The time of a pending line, or of the next step of a turn, has come.
+    /// A pending line or the next step of a turn is due.
     Time,
     End,
 }
@@ -140,7 +140,7 @@ impl Connection {
         }
     }
 
-    /// Text that answers a line, which may be empty; `None` to hang up.
+    /// Returns the answer to a line, which may be empty; `None` to hang up.
     async fn answer(&mut self, line: Line) -> Option<String> {
         let now = self.station.now().steady;
         if let Some(pause) = self.budget.take(now) {
@@ -160,8 +160,8 @@ impl Connection {
     }
 }
 
-/// Writes what the system takes at once. Returns `false` if the rest of the connection could not
-/// be read any more.
+/// Writes the bytes that the system takes at once. Returns `false` if the client could not read the
+/// rest of the connection correctly.
 async fn write_now(mut writer: Pin<&mut impl AsyncWrite>, bytes: &[u8]) -> bool {
     if bytes.is_empty() {
         return true;
@@ -173,7 +173,7 @@ async fn write_now(mut writer: Pin<&mut impl AsyncWrite>, bytes: &[u8]) -> bool 
     match written.await {
         // A client that does not read, such as Look4Sat, misses answers.
         None => true,
-        // Half an answer would shift all later ones.
+        // A partial answer would shift all later answers.
         Some(Ok(count)) => count == bytes.len(),
         Some(Err(_)) => false,
     }
@@ -181,7 +181,7 @@ async fn write_now(mut writer: Pin<&mut impl AsyncWrite>, bytes: &[u8]) -> bool 
 
 impl Connection {
     async fn carry_out(&mut self, request: Request) -> Reply {
-        // Any other command ends a turn; questions do not.
+        // Any other command ends a turn; queries do not.
         if matches!(request, Request::Stop | Request::Motion(_)) {
             self.turning = None;
         }
@@ -207,7 +207,7 @@ impl Connection {
             }
             Request::Stop => {
                 self.pointed = None;
-                // A client that stops an antenna must not be held up by it.
+                // Do not wait for the station: a client's stop needs no answer.
                 self.send(ClientCommand::Stop);
                 Reply::Done
             }
@@ -215,7 +215,7 @@ impl Connection {
                 Ok(()) => Reply::Done,
                 Err(code) => Reply::Error(code),
             },
-            // The connection ends before.
+            // The connection ends before this arm.
             Request::Quit => Reply::Done,
         }
     }
@@ -253,8 +253,8 @@ impl Connection {
         Ok(())
     }
 
-    /// Returns `false` while the station would refuse in any case and the operator knows of the
-    /// request: then the station has no work with it.
+    /// Returns `false` if the station would certainly refuse and the operator already knows of the
+    /// request. This saves the station the work.
     fn may_ask(&self, antenna: &AntennaModel) -> bool {
         let client = antenna.control.client(self.seat.peer);
         client.is_none_or(|client| {
@@ -266,7 +266,7 @@ impl Connection {
         })
     }
 
-    /// Sends a motion, and waits for the answer of the station or the gate.
+    /// Sends a motion, and waits for the answer of the station or the session.
     async fn ask(&mut self, command: ClientCommand) -> Result<(), ErrorCode> {
         let (antenna, peer) = (self.seat.antenna, self.seat.peer);
         let number = self.station.send_numbered(Command::Client(antenna, command));
@@ -299,7 +299,7 @@ impl Connection {
         }
     }
 
-    /// Repeats a turn when it is due, while the client is in control.
+    /// Repeats a due turn while the client is in control.
     fn turn_on(&mut self) {
         let now = self.station.now().steady;
         let snapshot = self.station.snapshot();
@@ -316,7 +316,7 @@ impl Connection {
     }
 }
 
-/// Rates of azimuth and elevation, degrees a second.
+/// Returns the rates of azimuth and elevation, degrees per second.
 fn rates(
     antenna: &AntennaModel,
     sense: Sense,

@@ -2,8 +2,8 @@
 
 use std::net::SocketAddr;
 
-/// Name of the program that has the connection from `peer` to `port`; `None` for another computer,
-/// and where the operating system does not tell.
+/// Returns the name of the program that has the connection from `peer` to `port`. `None` for
+/// another computer, and if the operating system does not report the program.
 #[cfg(target_os = "linux")]
 pub(super) fn name(peer: SocketAddr, port: SocketAddr) -> Option<String> {
     if !peer.ip().is_loopback() {

@@ -1,18 +1,18 @@
-//! Differences between two values of JSON.
+//! Differences between two JSON values.
 
 use serde::Serialize;
 use serde_json::Value;
 
-/// A value that has changed.
+/// Value that has changed.
 #[derive(Debug, PartialEq, Serialize)]
 pub(super) struct Difference<'a> {
-    /// Its place, such as `antenna[0].beam_width_deg`.
+    /// Place of the value, such as `antenna[0].beam_width_deg`.
     place: String,
     was: Option<&'a Value>,
     is: Option<&'a Value>,
 }
 
-/// All values in which `is` differs from `was`.
+/// Returns all values in which `is` differs from `was`.
 pub(super) fn differences<'a>(was: &'a Value, is: &'a Value) -> Vec<Difference<'a>> {
     let mut found = Vec::new();
     compare(String::new(), Some(was), Some(is), &mut found);

@@ -1,4 +1,4 @@
-//! Explains the error of a pass while an antenna tracks it.
+//! Explanation of a pass's error while an antenna tracks the pass.
 
 use std::path::Path;
 
@@ -16,17 +16,17 @@ use crate::{
     },
 };
 
-/// Time between two looks, seconds.
+/// Min time between two searches for a cause, seconds.
 const EVERY_S: f64 = 10.0;
-/// Only positions as young as this count, seconds: what was wrong before them may be mended.
+/// Max age of the positions used, seconds: older errors may be corrected by now.
 const SINCE_S: f64 = 180.0;
-/// An error below this share of half the beamwidth needs no cause.
+/// Min error that needs a cause, as a share of half the beamwidth.
 const MIN_SHARE: f64 = 0.5;
 
 impl Engine {
-    /// Looks for what explains the errors of the passes under way, and shows it.
+    /// Searches for the causes of errors in current passes, and shows them.
     pub(super) fn explain_passes(&mut self) {
-        // A rehearsal shows nobody a card.
+        // A rehearsal has no window that could show a cause.
         if self.recording.recorder.is_none() {
             return;
         }

@@ -1,4 +1,4 @@
-//! Records the changes of each new schedule.
+//! Record entries of the changes in each new schedule.
 
 use std::{collections::BTreeMap, sync::Arc};
 
@@ -13,7 +13,7 @@ use crate::{
     station::AntennaId,
 };
 
-/// How the schedule treats a pass.
+/// Treatment of a pass by the schedule.
 #[derive(PartialEq, Serialize)]
 #[serde(untagged)]
 enum Planning<'a> {
@@ -31,7 +31,7 @@ struct News<'a> {
     changes: &'a [Change],
 }
 
-/// The passes of a schedule, by pass and by the antenna that takes it.
+/// Returns the passes of a schedule, by pass and by the antenna that takes it.
 fn passes(planned: &Planned) -> BTreeMap<(PassKey, Option<AntennaId>), Planning<'_>> {
     let Schedule { entries, left_out, .. } = &planned.schedule;
     let taken_passes =

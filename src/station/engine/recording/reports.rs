@@ -1,5 +1,5 @@
-//! Reports of the passes that antennas track, however they are tracked: each is written when the
-//! pass is over, or when the program ends.
+//! Reports of the passes that antennas track in any way. Azel writes a report when the pass is
+//! over, or when the program ends.
 
 use std::time::{Duration, Instant};
 
@@ -40,58 +40,58 @@ use crate::{
     station::AntennaId,
 };
 
-/// How far a pass under way may reach back and ahead, seconds. Of a satellite that stays up
-/// longer, this much from the beginning of its track is reported.
+/// Max reach of a current pass back and ahead, seconds. For a satellite that stays up longer, the
+/// report covers this time from the start of its track.
 const REACH_S: f64 = 6.0 * 3600.0;
-/// Time from the end of a pass to its report: the last position may still be on its way, seconds.
+/// Time from the end of a pass to its report, seconds: the last position may still be on its way.
 const AFTER_S: f64 = 3.0;
-/// A pass that is not there is looked for again after this time, seconds.
+/// Pause before another search for a pass that was not found, seconds.
 const SOUGHT_AGAIN_S: f64 = 60.0;
-/// Time for the reports that are not ready when the record ends.
+/// Timeout for unfinished reports when the record ends.
 const LAST_WITHIN: Duration = Duration::from_secs(1);
-/// Time between two samples for the trackability, seconds.
+/// Time between two samples of the trackability, seconds.
 const STEP_S: f64 = 2.0;
-/// Least time between two points that are kept of the track, seconds.
+/// Min time between two kept points of the track, seconds.
 const POINT_S: f64 = 0.95;
 
-/// A pass that an antenna tracks, or that automatic operation has to track with it, until it is over.
+/// Pass that an antenna tracks or that automatic operation must track, until the pass is over.
 pub(super) struct Followed {
     pub(super) antenna: AntennaId,
-    /// The part of it that the plan gives to the antenna.
+    /// Part of the pass that the plan gives to the antenna.
     planned: Option<Duty>,
-    /// The flight, once it is over.
+    /// Flight of the pass after its end.
     flight: Option<Flight>,
-    /// It was tracked, so that somebody wants a report of it.
+    /// `true` if the antenna tracked the pass, which then needs a report.
     has_tracked: bool,
     pub(super) elements: Elements,
     pub(super) propagator: Propagator,
     pub(super) site: Site,
-    /// AOS and LOS above the antenna's own minimum elevation.
+    /// AOS and LOS above the antenna's own min elevation.
     pub(super) start: Timestamp,
     pub(super) end: Timestamp,
     max_elevation_deg: f64,
-    /// When the program ended, if that was before the pass was over.
+    /// Time of the program's end, if before the end of the pass.
     ended: Option<Timestamp>,
     pub(super) limits: MountLimits,
     pub(super) about_track: AboutTrack,
     pub(super) breaks: Breaks,
     positions: PositionLog,
     next_position: u64,
-    /// Positions in which the pass was commanded.
+    /// Positions measured while the pass was commanded.
     pub(super) flown: Vec<MeasuredPosition>,
-    /// Search for the causes of its error so far.
+    /// Search for the causes of the error so far.
     pub(super) live: Live,
 }
 
-/// The results of a pass that is over.
+/// Results of a finished pass.
 pub(super) struct Finished {
     note: Option<PassNote>,
-    /// The line of a scheduled pass in the list of the day.
+    /// Line of a scheduled pass for the list of the day.
     flown: Option<(AntennaId, Flown)>,
 }
 
 impl Engine {
-    /// Takes up the passes that antennas track or have to, and reports on those that are over.
+    /// Adds the passes that antennas track or must track, and reports finished passes.
     pub(super) fn report_passes(&mut self) {
         let finished: Vec<Finished> =
             self.recording.reports.iter_mut().filter_map(Job::take).flatten().collect();
@@ -103,7 +103,7 @@ impl Engine {
             self.tell_finished(finished);
         }
         self.note_commands();
-        // One look a second is enough, since a pass is long.
+        // One check a second is enough, since a pass is long.
         if self.now.as_second() == self.recording.looked_at {
             return;
         }
@@ -127,8 +127,8 @@ impl Engine {
         }
     }
 
-    /// Ends a pass of the schedule for an antenna. Azel notes its outcome together with its report,
-    /// which waits for the last positions.
+    /// Ends a scheduled pass of an antenna. Azel notes its outcome together with its report, which
+    /// waits for the last positions.
     pub(in crate::engine) fn end_flight(&mut self, antenna: AntennaId, flight: Flight) {
         let is_its = |pass: &&mut Followed| {
             pass.antenna == antenna
@@ -137,13 +137,12 @@ impl Engine {
         };
         match self.recording.followed.iter_mut().find(is_its) {
             Some(pass) => pass.flight = Some(flight),
-            // Its satellite has no elements any more.
+            // The satellite no longer has elements.
             None => self.note_flown(antenna, flight.end(None)),
         }
     }
 
-    /// The record ends, with the program or because another one begins: what is known of the passes under
-    /// way is written as well.
+    /// Reports finished and current passes before the record ends.
     pub(in crate::engine) fn report_last_passes(&mut self) {
         let now = self.now;
         self.look_at_passes();
@@ -162,7 +161,7 @@ impl Engine {
         }
     }
 
-    /// Notes which passes the antennas have the command to track.
+    /// Notes the passes that the antennas are commanded to track.
     fn note_commands(&mut self) {
         let (now, recording) = (self.now, &mut self.recording);
         for antenna in &self.antennas {
@@ -204,8 +203,8 @@ impl Engine {
         }
     }
 
-    /// Takes up the pass that an antenna tracks now, and the one that automatic operation has to track
-    /// with it.
+    /// Adds the pass that an antenna tracks now, and the pass that automatic operation must track
+    /// with the antenna.
     fn take_up_passes(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get(index) else { return };
         let (shown, now) = (&antenna.shown, self.now);
@@ -236,7 +235,7 @@ impl Engine {
         }
     }
 
-    /// Takes up the pass of a satellite at a time, if it is a new one.
+    /// Adds the pass of a satellite at a time, unless it is already known.
     fn take_up_pass(&mut self, index: usize, number: u32, time: Timestamp, planned: Option<Duty>) {
         let Some(antenna) = self.antennas.get(index) else { return };
         let (shown, now) = (&antenna.shown, self.now);
@@ -280,7 +279,7 @@ impl Engine {
             recording.lookups.retain(|((antenna, _), _)| *antenna != key.0);
             return recording.lookups.push((key, now));
         };
-        // A satellite that never rises was up before the track: nobody lost that time.
+        // A satellite that never rises was up before the track, so that time is not lost.
         let start = if pass.starts_before { now } else { pass.aos.time };
         let mut breaks = Breaks::default();
         let commanded = recording.commanded.get(&id).filter(|(commanded, _)| *commanded == number);
@@ -312,7 +311,8 @@ impl Engine {
     }
 }
 
-/// The sets in `history` of the satellite of `elements`, with their epochs, but that one.
+/// Returns the sets in `history` for the satellite of `elements`, with their epochs, without the
+/// current set.
 pub(super) fn others_of(
     elements: &Elements,
     history: Option<&History>,
@@ -324,7 +324,7 @@ pub(super) fn others_of(
     others.collect()
 }
 
-/// Returns the description of a track that begins now.
+/// Returns the conditions of a track that begins now.
 fn track_conditions(antenna: &AntennaModel, begun: Timestamp, sync: TimeSync) -> AboutTrack {
     let tracked_by = match () {
         () if antenna.follows() => TrackedBy::ProgramTrack,
@@ -348,19 +348,19 @@ fn track_conditions(antenna: &AntennaModel, begun: Timestamp, sync: TimeSync) ->
 }
 
 impl Followed {
-    /// The part of the pass that counts: the part that the plan gives to the antenna, or all.
+    /// Returns the part of the pass that counts: the antenna's part in the plan, or the whole pass.
     fn counted(&self) -> (Timestamp, Timestamp) {
         self.planned.map_or((self.start, self.end), |duty| (duty.start, duty.end))
     }
 
-    /// Seconds since the pass is over for its antenna; negative before.
+    /// Returns the time since the end of the antenna's pass, seconds; negative before the end.
     fn is_over_since(&self, now: Timestamp) -> f64 {
         let is_under_way = self.planned.is_some() && self.flight.is_none();
         let end = if is_under_way { self.end } else { self.counted().1 };
         seconds_between(end, now)
     }
 
-    /// Takes what is new of the pass.
+    /// Reads the news about the pass.
     fn look(&mut self, antenna: Option<&Antenna>, sync: TimeSync, now: Timestamp, steady: Steady) {
         if let Some(antenna) = antenna {
             let positions = antenna.handle.positions();
@@ -386,7 +386,7 @@ impl Followed {
             if tracks && !self.has_tracked {
                 (self.has_tracked, self.about_track) = (true, track_conditions(shown, now, sync));
             }
-            // Before AOS and after LOS it counts for other passes.
+            // Before AOS and after LOS, program track works on other passes.
             let is_of_this = |view: &&TrackView| {
                 view.catalog_number == Some(number) && view.phase == TrackPhase::Tracking
             };
@@ -416,7 +416,7 @@ impl Followed {
             .extend(own.map(|own| MeasuredPosition { time: own.time, pointing: own.pointing }));
     }
 
-    /// Starts the work on the report.
+    /// Starts a job that makes the report.
     fn report(self, history: Option<History>, wants_note: bool, wake: &Wake) -> Job<Finished> {
         Job::start("azel-report", Wake::clone(wake), move |_| {
             self.finish(history.as_ref(), wants_note)
@@ -479,7 +479,8 @@ impl Followed {
         Finished { note: Some(note), flown: outcome }
     }
 
-    /// The part that counts and that the mount can track. The plan says how much the mount loses, and why.
+    /// Returns the counted part that the mount can track. The plan says how much the mount loses,
+    /// and why.
     pub(super) fn trackability(&self) -> Trackability {
         let (first, last) = self.counted();
         let count = (seconds_between(first, last) / STEP_S) as u32;

@@ -1,5 +1,5 @@
-//! State of an antenna as the record tells it: all that changes now and then, and nothing that
-//! changes with each measurement.
+//! State of an antenna in the record: values that change occasionally, without the ones that change
+//! with each measurement.
 
 use serde::Serialize;
 
@@ -20,19 +20,19 @@ use crate::{
 pub(super) struct State {
     link: LinkStatus,
     intent: Intent,
-    /// The intent is not proved by the unit yet.
+    /// `true` until the unit proves the intent.
     is_pending: bool,
-    /// The axes turn.
+    /// `true` while the axes turn.
     moves: Option<bool>,
-    /// Name and catalog number of what is tracked.
+    /// Name and catalog number of the tracked satellite.
     tracks: Option<(Option<String>, Option<u32>)>,
     program_track: Option<TrackPhase>,
-    /// Offsets of program track, or added from here to those of the unit.
+    /// Offsets of program track, or offsets that Azel added to the unit's own.
     offsets: Option<TrackOffsets>,
     on_board_track: Option<Phase>,
     auto_track: Option<bool>,
     stop: &'static str,
-    /// It was moved from here, and standstill has not been proved since.
+    /// `true` if Azel moved the antenna and standstill has not been proved since.
     is_unproved: bool,
     is_silent: bool,
     left_moving: Option<LeftMoving>,
@@ -40,7 +40,7 @@ pub(super) struct State {
     breach: Option<Breach>,
     lock_out: Option<LockOut>,
     operation: Operation,
-    /// Names of the checks that are not good.
+    /// Names of the checks with a caution or fault.
     faults: Vec<String>,
     held_by: Option<String>,
 }

@@ -1,4 +1,4 @@
-//! Carries out the tests, on threads of their own.
+//! Runner of the source tests, on threads of their own.
 
 use std::{io, sync::Arc};
 
@@ -17,10 +17,10 @@ use crate::{
     transfer::{FetchError, OfferedKey, Transfer, Trust, fetch, what_a_unit_sees},
 };
 
-/// The file as the unit will see it, and the old algorithms of the connection.
+/// File as the unit will read it, and the old algorithms of the connection.
 type View = (UnitView, Vec<OldAlgorithm>);
 
-/// Runs tests, one at a time.
+/// Runner of one test at a time.
 pub(in crate::engine) struct Runner {
     places: Option<Places>,
     clock: Clock,
@@ -35,7 +35,7 @@ impl Runner {
         Self { places, clock, wake, offered: None, transfer: None, deciding: None }
     }
 
-    /// Carries out a request of a view.
+    /// Carries out a client's request.
     pub(in crate::engine) fn ask(&mut self, ask: TestAsk, shown: &mut SourceTests) {
         match (ask, &shown.stage) {
             (TestAsk::Begin(order), stage) if !stage.is_open() => {
@@ -65,7 +65,7 @@ impl Runner {
         }
     }
 
-    /// Takes results that have come in.
+    /// Collects results of finished jobs.
     pub(in crate::engine) fn poll(&mut self, shown: &mut SourceTests) {
         if let Some(decided) = Job::take(&mut self.deciding) {
             match decided.unwrap_or_else(|broke_off| Err(broke_off.to_string())) {

@@ -1,4 +1,4 @@
-//! Passwords of log-ins at servers of elements.
+//! Passwords for log-ins at element servers.
 
 use std::{
     sync::{Arc, Mutex, PoisonError},
@@ -14,10 +14,10 @@ use crate::{
     transfer::{Account, Keyring as _, KeyringError, MemoryKeyring, TimedKeyring},
 };
 
-/// Time limit for an answer of the keyring. A locked one may ask the operator, who may be away.
+/// Timeout for the keyring. A locked keyring may ask the operator, who may be away.
 const KEYRING_LIMIT: Duration = Duration::from_secs(20);
 
-/// Passwords of log-ins: those that were typed since Azel started, and those in the keyring.
+/// Passwords for log-ins: typed since Azel's start, and stored in the keyring.
 #[derive(Debug, Clone)]
 pub(in crate::engine) struct Passwords {
     keyring: TimedKeyring,
@@ -38,8 +38,8 @@ impl Passwords {
         Self { keyring, session, unproved: Arc::default(), problems: Arc::default() }
     }
 
-    /// Uses a typed password from now on, and keeps it in the keyring once the server has accepted
-    /// it, if the operator wants that.
+    /// Uses a typed password from now on. If the operator wants it, the keyring stores the password
+    /// after the server has accepted it.
     pub(in crate::engine) fn take(&self, user: &str, secret: &Secret, is_kept: bool) {
         let account = account(user);
         // Keyrings in memory never fail.
@@ -51,13 +51,13 @@ impl Passwords {
         };
     }
 
-    /// Forgets the password of `user`, in the keyring too.
+    /// Removes the password of `user`, also from the keyring.
     pub(super) fn forget(&self, user: &str) {
         let account = account(user);
         let _ = self.session.remove(&account);
         let _ = self.unproved.remove(&account);
         match self.keyring.remove(account) {
-            // Without a keyring there is nothing to remove.
+            // Without a keyring, there is nothing to remove.
             Ok(()) | Err(KeyringError::Missing(_)) => {}
             Err(error) => self.add_problem(format!("the password stays in the keyring: {error}")),
         }
@@ -102,7 +102,7 @@ impl PasswordStore for Passwords {
         }
     }
 
-    /// Another password that the operator has typed since stays.
+    /// Removes a refused password, but keeps another one that the operator has typed since.
     fn refused(&self, user: &str, password: &Secret) {
         let account = account(user);
         for keyring in [&self.session, &self.unproved] {
@@ -113,7 +113,7 @@ impl PasswordStore for Passwords {
     }
 }
 
-/// The account of a log-in name at Space-Track.
+/// Returns the account of a log-in name at Space-Track.
 pub(super) fn account(user: &str) -> Account {
     Account { user: log_in_key(user), address: format!("{SPACE_TRACK_HOST}:443") }
 }

@@ -1,5 +1,5 @@
-//! One attempt to bring a file to a unit, on a thread of its own: keyring, connection, host
-//! key, log-in, upload and proof.
+//! One attempt to upload a file to a unit, on its own thread: keyring, connection, host key,
+//! log-in, upload and proof.
 
 use std::{io, sync::Arc};
 
@@ -24,20 +24,20 @@ use crate::{
 
 pub(super) struct Errand {
     pub(super) order: Order,
-    /// The secret that the operator typed.
+    /// Secret that the operator typed.
     pub(super) secret: Option<Secret>,
 }
 
-/// End of an attempt.
+/// Outcome of an attempt.
 #[derive(Debug)]
 pub(super) enum Outcome {
     /// The file is on the unit.
     Uploaded(Box<Uploaded>),
-    /// The host has another key than the known one, or no key is known.
+    /// The host's key differs from the known key, or no key is known.
     HostKey(ConnectError),
     /// The operator must type the secret.
     Secret {
-        /// Why the last secret was refused.
+        /// Reason why the unit refused the last secret.
         refused: Option<String>,
     },
     /// The operator cancelled; the text is the state of the unit.
@@ -49,18 +49,18 @@ pub(super) enum Outcome {
 #[derive(Debug)]
 pub(super) struct Report {
     pub(super) outcome: Outcome,
-    /// The unit accepted the log-in.
+    /// `true` if the unit accepted the log-in.
     pub(super) is_logged_in: bool,
-    /// The password is the one that the maker sets in every unit.
+    /// `true` if the password is the factory password of every unit.
     pub(super) is_factory: bool,
-    /// Why the keyring could not be read.
+    /// Reason why the keyring could not be read.
     pub(super) keyring_problem: Option<String>,
     /// Old algorithms of the connection.
     pub(super) old_algorithms: Vec<OldAlgorithm>,
 }
 
 impl Report {
-    /// A failure before anything was done.
+    /// Returns the report of a failure before the first step.
     pub(super) fn failed(text: String) -> Self {
         Self {
             outcome: Outcome::Failed(text),
@@ -80,7 +80,7 @@ pub(super) fn start(
 ) -> io::Result<Transfer<Report>> {
     let (places, clock) = (places.clone(), clock.clone());
     Transfer::start("azel-upload", wake, move |mut tell, cancel| {
-        // Outside the runtime, as keyrings need it.
+        // Keyrings must be called outside the runtime.
         let (secret, keyring_problem) = find_secret(&errand, &places);
         async move {
             let (order, places) = (&errand.order, &places);
@@ -97,7 +97,7 @@ pub(super) fn start(
     })
 }
 
-/// The typed secret, or else the one in the session's memory or the keyring.
+/// Returns the typed secret, or else the one in the session's memory or the keyring.
 fn find_secret(errand: &Errand, places: &Places) -> (Option<SecretString>, Option<String>) {
     if let Some(secret) = &errand.secret {
         return (Some(secret.inner().clone()), None);
@@ -141,8 +141,7 @@ impl Attempt<'_> {
             }
             (None, Some(password)) => Proof::Password(password.clone()),
             (None, None) => {
-                // Check the host first: it must be the right one before a password is typed
-                // for it.
+                // Check the host first: the operator must not type a password for a wrong host.
                 let known_hosts = &places.known_hosts;
                 return match check_host_key(&order.unit, known_hosts, places.limits, cancel).await {
                     Ok(old_algorithms) => {
@@ -206,7 +205,7 @@ impl Attempt<'_> {
     }
 }
 
-/// Saves `secret` in the keyring. The job returns why that failed.
+/// Saves `secret` in the keyring. The job's result is the reason of a failure.
 pub(super) fn keep_secret(
     places: &Places,
     account: Account,

@@ -1,5 +1,5 @@
-//! State machine of an order, from the operator's request to the unit's report. It has no
-//! threads and no clock; the runner carries out the steps that it returns.
+//! State machine of an order, from the operator's request to the unit's report. It has no threads
+//! and no clock; the runner carries out the returned steps.
 
 use jiff::Timestamp;
 
@@ -20,19 +20,19 @@ use crate::{
     transfer::OfferedKey,
 };
 
-/// Why an unattended order ends.
+/// Reason why an unattended order ends.
 const IN_USE: &str = "the antenna is in use or automatic operation is off";
 
-/// The next step of an order.
+/// Next step of an order.
 pub(super) enum Next {
-    /// Run this attempt.
+    /// Run of this attempt.
     Run(Box<Errand>),
-    /// Carry out the operator's decision about a host key.
+    /// Operator's decision about a host key, to carry out.
     Decide(Decision),
-    /// End the unit's tracking and auto-track: the gate passes a setting that decides where
-    /// the unit points only at rest.
+    /// End of the unit's tracking and auto-track. The gate permits settings that affect the
+    /// pointing only at rest.
     Rest,
-    /// Let the unit use this file.
+    /// Use of this file by the unit.
     Select(Selection),
 }
 
@@ -41,17 +41,17 @@ pub(super) enum Next {
 pub(super) struct Flow {
     order: Option<Order>,
     secret: Option<Secret>,
-    /// Keep the secret once it has opened the log-in.
+    /// `true` to save the secret after a successful log-in.
     keeps: bool,
-    /// Why the keyring could not be read; it is asked once.
+    /// Reason why the keyring could not be read; Azel asks it once.
     keyring_problem: Option<String>,
     offered: Option<Box<OfferedKey>>,
-    /// The unit's tracking may end.
+    /// `true` if the unit's tracking may end.
     is_agreed: bool,
-    /// On the unit, but not in use yet.
+    /// Upload that is on the unit but not in use yet.
     uploaded: Option<Box<Uploaded>>,
     selection: Option<Selection>,
-    /// The selection waits until the unit is at rest.
+    /// `true` while the selection waits until the unit is at rest.
     awaits_rest: bool,
     selections: u64,
 }
@@ -61,7 +61,7 @@ impl Flow {
         self.order.as_ref()
     }
 
-    /// Returns `true` if nobody answers questions about the order.
+    /// Returns `true` if no operator answers questions about the order.
     pub(super) fn is_unattended(&self) -> bool {
         self.order.as_ref().is_some_and(|order| order.is_unattended)
     }
@@ -113,8 +113,8 @@ impl Flow {
         }
     }
 
-    /// The operator has stopped the antennas: from now on no tracking may end or begin
-    /// without a new question.
+    /// Withdraws the operator's agreement after a STOP: tracking may not end or begin without a new
+    /// question.
     pub(super) fn stopped(&mut self) {
         self.is_agreed = false;
     }
@@ -128,7 +128,7 @@ impl Flow {
         Some(Next::Decide(Decision::Trust(offered)))
     }
 
-    /// Forgets the host's keys; the order then begins again and asks about the new key.
+    /// Forgets the host's keys; the order then restarts and asks about the new key.
     pub(super) fn forget_host(&mut self, shown: &mut Uploads) -> Option<Next> {
         let Stage::Failed(Failure { changed_key: Some(_), .. }) = &shown.stage else { return None };
         let peer = self.order.as_ref()?.unit.clone();
@@ -163,7 +163,7 @@ impl Flow {
         self.run(shown)
     }
 
-    /// The secret to keep in the keyring, returned once.
+    /// Returns the secret to store in the keyring, once.
     pub(super) fn secret_to_keep(&mut self) -> Option<Secret> {
         std::mem::take(&mut self.keeps).then(|| self.secret.clone()).flatten()
     }
@@ -174,7 +174,7 @@ impl Flow {
         fail(shown, text);
     }
 
-    /// Cancels. Returns `true` if the work under way must be cancelled too.
+    /// Cancels the order. Returns `true` if the current work must be cancelled too.
     pub(super) fn cancel(&mut self, shown: &mut Uploads) -> bool {
         let can_cancel = shown.stage.can_cancel();
         match &mut shown.stage {
@@ -213,7 +213,7 @@ impl Flow {
             shown.warnings.push(Warning::FactoryPassword);
         }
         if !report.old_algorithms.is_empty() {
-            // The host check before a password and the upload itself are two connections.
+            // An order makes two connections: the host check before a password, and the upload.
             shown.warnings.retain(|warning| !matches!(warning, Warning::OldAlgorithms(_)));
             shown.warnings.push(Warning::OldAlgorithms(report.old_algorithms));
         }
@@ -262,8 +262,8 @@ impl Flow {
         None
     }
 
-    /// Lets the unit use the file. Its state is checked only now, because it may have begun
-    /// to track during the upload.
+    /// Makes the unit use the file. Checks the unit's state only now, because tracking may have
+    /// begun during the upload.
     fn use_file(
         &mut self,
         uploaded: Box<Uploaded>,
@@ -315,7 +315,7 @@ impl Flow {
         self.selection.clone().map(Next::Select)
     }
 
-    /// Takes the unit's answer, if it has come.
+    /// Handles the unit's answer, if it has arrived.
     pub(super) fn answered(&mut self, unit: &UnitNow, shown: &mut Uploads) {
         let selection = self.selection.as_ref();
         let end = selection.zip(unit.answer.as_ref()).and_then(|(one, answer)| one.end(answer));
@@ -324,7 +324,7 @@ impl Flow {
         }
     }
 
-    /// Takes the result of the selection.
+    /// Handles the result of the selection.
     pub(super) fn selected(
         &mut self,
         result: Result<(), String>,

@@ -1,4 +1,4 @@
-//! An order of the operator for a unit.
+//! Order of the operator for a unit.
 
 use std::path::PathBuf;
 
@@ -9,7 +9,7 @@ use crate::{
     transfer::Account,
 };
 
-/// Where an upload goes.
+/// Destination of an upload.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::engine) struct UploadTarget {
     pub(in crate::engine) unit: Peer,
@@ -23,7 +23,7 @@ pub(in crate::engine) struct UploadTarget {
     pub(in crate::engine) key_file: Option<PathBuf>,
 }
 
-/// Where the next upload to this unit goes.
+/// Returns the destination of the next upload to this unit.
 pub(in crate::engine) fn target(order: &Order) -> UploadTarget {
     UploadTarget {
         unit: order.unit.clone(),
@@ -34,7 +34,7 @@ pub(in crate::engine) fn target(order: &Order) -> UploadTarget {
     }
 }
 
-/// Account under which the password or passphrase is kept.
+/// Returns the account that stores the password or passphrase.
 pub(super) fn account(order: &Order) -> Account {
     let key_file = order.key_file.as_ref();
     let user = key_file.map_or_else(|| order.user.clone(), |path| path.display().to_string());

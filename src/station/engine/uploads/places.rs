@@ -4,23 +4,23 @@ use std::{fmt, sync::Arc};
 
 use crate::transfer::{KeptFiles, Keyring, KnownHosts, Limits, MemoryKeyring, SystemKeyring};
 
-/// Stores for host keys, old uploads and secrets, and time limits for a unit.
+/// Stores for host keys, old uploads and secrets, and timeouts for a unit.
 #[derive(Clone)]
 pub struct Places {
     /// Pinned host keys.
     pub known_hosts: KnownHosts,
-    /// Previous files of every unit.
+    /// Previous files of all units.
     pub kept_files: KeptFiles,
-    /// Secrets that the operator wants to keep.
+    /// Secrets that the operator wants to save.
     pub keyring: Arc<dyn Keyring>,
-    /// Secrets that are kept until the program ends.
+    /// Secrets that last until the program ends.
     pub session: Arc<MemoryKeyring>,
-    /// Time limits of the steps.
+    /// Timeouts of the steps.
     pub limits: Limits,
 }
 
 impl Places {
-    /// The places of this user; `None` on a machine without a home.
+    /// Returns the places of this user; `None` on a machine without a home folder.
     pub fn of_this_user() -> Option<Self> {
         Some(Self {
             known_hosts: KnownHosts::of_this_user()?,

@@ -1,4 +1,4 @@
-//! Carries out the steps of an order on threads of their own, and shows its progress.
+//! Runner of an order's steps on threads of their own, with the order's progress.
 
 use std::{sync::Arc, time::Duration};
 
@@ -16,19 +16,19 @@ use crate::{
     transfer::Transfer,
 };
 
-/// Time limit for the unit's answer. A session answers long before, whatever happens to its
-/// link; without an answer the operator gets a message.
+/// Timeout for the unit's answer. A session answers long before, also after a link loss; without an
+/// answer, the operator gets a message.
 const SELECTING: Duration = Duration::from_secs(90);
 
-/// A request to the session of an antenna.
+/// Request to the session of an antenna.
 pub(in crate::engine) enum SessionRequest {
-    /// End tracking, and switch auto-track off.
+    /// End of tracking and auto-track.
     Rest,
-    /// Use a file.
+    /// Use of a file.
     Use(Selection),
 }
 
-/// Carries out orders, one at a time.
+/// Runner of one order at a time.
 pub(in crate::engine) struct Runner {
     places: Option<Places>,
     clock: Clock,
@@ -56,8 +56,8 @@ impl Runner {
         }
     }
 
-    /// Carries out a request of a view. `unit_of` returns the state of an antenna's unit.
-    /// The result is a request to the session of the shown antenna.
+    /// Carries out a client's request. `unit_of` returns the state of an antenna's unit. Returns a
+    /// request to the session of the shown antenna.
     pub(in crate::engine) fn ask(
         &mut self,
         ask: Ask,
@@ -95,24 +95,23 @@ impl Runner {
         self.carry_out(next, shown)
     }
 
-    /// The order that was given last.
+    /// Returns the last order.
     pub(in crate::engine) fn order(&self) -> Option<&Order> {
         self.flow.order()
     }
 
-    /// Ends the order under way, for the reason `text`. A thread that does not end is left behind.
+    /// Ends the current order with the reason `text`. Leaves behind a thread that does not end.
     pub(in crate::engine) fn give_up(&mut self, text: String, shown: &mut Uploads) {
         self.transfer = None;
         self.flow.give_up(text, shown);
     }
 
-    /// Takes note that the operator has stopped the antennas.
+    /// Notes that the operator has stopped the antennas.
     pub(in crate::engine) fn stopped(&mut self) {
         self.flow.stopped();
     }
 
-    /// Takes results that have come in. The result is a request to the session of the shown
-    /// antenna.
+    /// Collects results of finished jobs. Returns a request to the session of the shown antenna.
     pub(in crate::engine) fn poll(
         &mut self,
         unit: &UnitNow,
@@ -172,7 +171,7 @@ impl Runner {
         }
     }
 
-    /// Ends the order: the unit cannot be set to use the file, for the reason `text`.
+    /// Ends the order with the reason `text`, because the unit cannot use the file.
     pub(in crate::engine) fn not_selected(&mut self, text: String, shown: &mut Uploads) {
         self.flow.selected(Err(text), self.clock.utc(), shown);
     }
@@ -202,7 +201,7 @@ impl Runner {
 
     fn end_early(&mut self, text: String, shown: &mut Uploads) -> Option<SessionRequest> {
         let unit = UnitNow::default();
-        // There is no next step after a failure.
+        // A failure has no next step.
         let _ = self.flow.reported(Report::failed(text), &unit, shown);
         None
     }
@@ -227,7 +226,7 @@ impl Runner {
     }
 }
 
-/// Takes the result of `job`.
+/// Returns the result of a finished `job`.
 fn take(job: &mut Option<Job<Result<(), String>>>) -> Option<Result<(), String>> {
     Job::take(job).map(|end| end.unwrap_or_else(|broke_off| Err(broke_off.to_string())))
 }

@@ -1,4 +1,4 @@
-//! Sets a unit to use an uploaded file, and judges its answer.
+//! Selection of an uploaded file on a unit, and judgement of the unit's answer.
 
 use std::sync::Arc;
 
@@ -20,10 +20,10 @@ use crate::{
     engine::automatic::Operate,
 };
 
-/// Tickets of selections begin here; those of the forms are lower.
+/// First ticket of selections; tickets of forms are lower.
 pub(super) const TICKETS: u64 = 1 << 63;
 
-/// Why the operator must agree before the unit of `antenna` is set, if anything asks for it.
+/// Returns the reason why the operator must agree to a change of the unit of `antenna`.
 fn busy(antenna: &AntennaModel) -> Option<Busy> {
     let program = antenna.snapshot.state.program?;
     if program.enabled {
@@ -32,30 +32,30 @@ fn busy(antenna: &AntennaModel) -> Option<Busy> {
     (program.auto == Some(true)).then_some(Busy::MayTrack)
 }
 
-/// Present state of an antenna's unit.
+/// Current state of an antenna's unit.
 #[derive(Debug, Clone, Default)]
 pub(in crate::engine) struct UnitNow {
     /// Time of this state.
     pub(super) time: Timestamp,
-    /// Why the operator must agree before the unit is set to use a file.
+    /// Reason why the operator must agree before the unit uses a file.
     pub(super) busy: Option<Busy>,
     /// Holder and reason of a lock-out.
     pub(super) locked_out: Option<String>,
-    /// Why the driver would refuse to let it use a file now.
+    /// Reason why the driver would refuse the use of a file now.
     pub(super) hindrance: Option<Hindrance>,
-    /// Automatic operation is on and asks nothing of the antenna.
+    /// `true` if automatic operation is on and requests nothing of the antenna.
     pub(super) is_idle: bool,
-    /// Catalog number of the satellite that the unit holds.
+    /// Catalog number of the unit's current satellite.
     pub(super) current: Option<u32>,
     /// Answer to the last finished selection.
     pub(super) answer: Option<Answer>,
 }
 
-/// End of a selection.
+/// Answer to a finished selection.
 #[derive(Debug, Clone)]
 pub(super) struct Answer {
     written: Arc<Written>,
-    /// Values that the unit holds now.
+    /// Last values that the unit reported.
     group: Option<HeldGroup>,
     checks: Arc<[Check]>,
     /// Time at which the checks were read.
@@ -63,7 +63,7 @@ pub(super) struct Answer {
 }
 
 impl UnitNow {
-    /// The state known to the session of `antenna`.
+    /// Returns the state known to the session of `antenna`.
     pub(in crate::engine) fn new(
         antenna: Option<&AntennaModel>,
         time: Timestamp,
@@ -90,16 +90,16 @@ impl UnitNow {
         Self { time, busy: busy(antenna), locked_out, hindrance, is_idle, current, answer }
     }
 
-    /// Returns `true` if a rule may change what the unit tracks from.
+    /// Returns `true` if a rule may change the unit's element file.
     pub(super) fn is_free(&self) -> bool {
         self.is_idle && self.hindrance.is_none() && self.locked_out.is_none()
     }
 }
 
-/// A satellite in a file that a unit shall use.
+/// Satellite in a file that a unit is to use.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::engine) struct Selection {
-    /// Unique for each selection; [`TICKETS`] and up.
+    /// Unique number of the selection, from [`TICKETS`] up.
     pub(super) ticket: u64,
     pub(super) takes: &'static ElementFiles,
     /// Time of the selection.
@@ -109,7 +109,7 @@ pub(in crate::engine) struct Selection {
 }
 
 impl Selection {
-    /// The command for the session. It ends the present track.
+    /// Returns the command for the session. It ends the current track.
     pub(in crate::engine) fn command(&self) -> driver::Command {
         let values = (self.takes.choose)(&self.file, &self.satellite.name);
         driver::Command::WriteSettings(Change {
@@ -121,8 +121,8 @@ impl Selection {
         })
     }
 
-    /// End and outcome of the selection; `None` while it goes on. The outcome is good only
-    /// when the unit has named this very object, and its checks were read since.
+    /// Returns the end and outcome of the selection; `None` while it is pending. The outcome is
+    /// good only if the unit has named the same object, and its checks were read afterwards.
     pub(super) fn end(&self, answer: &Answer) -> Option<(Timestamp, Result<(), String>)> {
         let written = &answer.written;
         if written.change.ticket != self.ticket {
@@ -154,8 +154,8 @@ impl Selection {
     }
 }
 
-/// The satellite of `uploaded` to use: the `chosen` one, else the one that the unit holds,
-/// else the first.
+/// Returns the satellite of `uploaded` to use: the `chosen` one, else the unit's current one, else
+/// the first.
 pub(super) fn pick(
     uploaded: &Uploaded,
     chosen: Option<u32>,

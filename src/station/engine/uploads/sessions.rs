@@ -1,4 +1,4 @@
-//! Connects uploads with the sessions of the antennas.
+//! Connection of uploads with the sessions of the antennas.
 
 use std::sync::Arc;
 
@@ -35,8 +35,8 @@ impl Engine {
         self.end_rule_upload();
     }
 
-    /// Records a verified upload, and configures the antenna to track from its file. An antenna without
-    /// a configured file uses the unit's current one.
+    /// Records a verified upload, and configures the antenna to track from its file. An antenna
+    /// without a configured file keeps the unit's current file.
     fn use_upload(&mut self, objects: &[FileObject]) {
         let Some(config) = self.upload_antenna().map(|antenna| Arc::clone(&antenna.shown.config))
         else {

@@ -122,7 +122,7 @@ fn favourites_keep_their_priorities_and_an_old_list_has_the_default() {
     assert_eq!(places, ["favourites[2]"]);
     station::save(&loaded.station, &path, SPECS).unwrap();
     assert_eq!(load(&path).unwrap().station.favourites, favourites);
-    // Tables alone are written in another form.
+    // A list with tables has another form in the file.
     let mut station = loaded.station;
     station.favourites.set_priority(43_013, Priority::ALL[4]);
     station::save(&station, &path, SPECS).unwrap();
@@ -165,7 +165,7 @@ fn what_cannot_be_read_is_left_alone() {
 #[test]
 fn a_failed_save_keeps_the_old_file() {
     let (folder, path) = written("name = 'Old'");
-    // A folder of that name cannot be replaced by a file.
+    // Saving fails because a folder has the name of the file.
     let occupied = folder.path().join("taken");
     fs::create_dir_all(occupied.join("inside")).unwrap();
     assert!(matches!(save(&Station::default(), &occupied, SPECS), Err(SaveError::Write { .. })));
@@ -211,7 +211,7 @@ fn what_a_make_alone_has_comes_back_as_it_was_saved() {
     assert_eq!(loaded.station, station);
 }
 
-/// The only antenna of a file, and the paths of the settings that were not adopted.
+/// Returns the only antenna of a file, and the paths of the settings that were not adopted.
 fn antenna(text: &str) -> (Antenna, Vec<String>) {
     let (_folder, path) = written(&format!("[[antenna]]\n{text}"));
     let Loaded { station, notes } = load(&path).unwrap();
@@ -283,7 +283,7 @@ fn ends_of_an_axis_that_cross_are_not_used() {
     ));
     assert_eq!(read.mount.travel_deg(), [(180.0, 360.0), (30.0, 90.0)]);
     assert_eq!(places, ["mount.azimuth_to_deg", "mount.elevation_to_deg"]);
-    // The usual upper end does not fit any more: the least that does is used.
+    // The default upper end no longer fits, so Azel uses the min valid one.
     let (read, places) = antenna(&format!("{genius}[antenna.mount]\nazimuth_from_deg = 360\n"));
     assert_eq!(read.mount.travel_deg(), [(360.0, 361.0), (0.0, 90.0)]);
     assert_eq!(places, Vec::<String>::new());
@@ -301,9 +301,9 @@ fn a_serial_port_is_for_an_rc2000c_alone() {
     }
 }
 
-/// Station file with antennas of every make. It must stay readable for ever.
+/// Station file with antennas of every make. Azel must always be able to read it.
 const WRITTEN: &str = include_str!("station.toml");
-/// The same station from before antennas had ids and stations an AOS elevation.
+/// The same station from a version without antenna ids and AOS elevation.
 const BEFORE_IDS: &str = include_str!("station-before-ids.toml");
 
 #[test]

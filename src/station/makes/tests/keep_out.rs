@@ -1,4 +1,4 @@
-//! Keep-outs, and what is done by itself, written to the station file and read from it.
+//! Keep-outs and automatic actions, written to the station file and read from it.
 
 use std::fs;
 
@@ -180,7 +180,7 @@ fn a_keep_out_with_a_wrong_value_holds_all_the_more() {
     assert!(strict("x", 0.0).holds_for("Genius"));
 }
 
-/// A station file with three settings that safety depends on and that cannot be read, and others.
+/// Station file in which three safety settings and some others cannot be read.
 const UNREAD: &str = "# The roof.
 nickname = 'west' # not known
 favourites = [25544, 'NOAA 15']

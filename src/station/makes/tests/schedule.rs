@@ -1,4 +1,4 @@
-//! How passes are planned, in the station file.
+//! Planning settings in the station file.
 
 use super::file::{load, written};
 use crate::{

@@ -1,4 +1,4 @@
-//! Writes the film.
+//! Camera that writes the film.
 
 use std::io::Write as _;
 
@@ -9,37 +9,37 @@ use serde_json::Value;
 use super::{Parts, Picture, patch::Patch};
 use crate::record::RecordError;
 
-/// Length of a reel, seconds: a moment in it is found from its first picture on.
+/// Length of a reel, seconds: a search for a moment starts at the reel's first picture.
 const REEL_S: f64 = 60.0;
-/// Most bytes of pictures that wait for a disk.
+/// Max size of pictures that wait for the disk, bytes.
 const MAX_WAITING: usize = 16 << 20;
 
-/// The camera of one run.
+/// Camera of one run.
 #[derive(Default)]
 pub(in crate::record) struct Camera {
     parts: Parts,
-    /// The last picture; null before the first of a reel.
+    /// Last picture; null before the first picture of a reel.
     last: Value,
-    /// Number of the reel in this run. It skips one where pictures are missing.
+    /// Number of the reel in this run. The number skips one where pictures are missing.
     reel: i64,
     /// Number of the next piece of the reel.
     piece: i64,
     begun_us: i64,
     /// Time of the last picture.
     until_us: i64,
-    /// Lines of this reel that are written already, and those that wait.
+    /// Written and pending lines of this reel.
     written: Vec<u8>,
     waiting: Vec<u8>,
-    /// Reels that are over, whole, with their numbers and times.
+    /// Finished whole reels, with their numbers and times.
     pending: Vec<(i64, [i64; 2], Vec<u8>)>,
-    /// Pictures that were dropped since the last write.
+    /// Number of pictures dropped since the last write.
     pub(in crate::record) dropped: u64,
-    /// Pictures since the last write.
+    /// Number of pictures since the last write.
     count: u64,
 }
 
 impl Camera {
-    /// Takes a picture.
+    /// Adds a picture to the film.
     pub(in crate::record) fn take(&mut self, picture: &dyn Picture) {
         let time = picture.moment().utc;
         let at_us = time.as_microsecond();
@@ -57,7 +57,7 @@ impl Camera {
             }
         };
         self.parts.next_picture();
-        // Values at these places are unchanged: take them out of both pictures to skip the
+        // Values at these places are unchanged. Take them out of both pictures to skip their
         // comparison.
         let same: Vec<(String, Value)> = (self.parts.same.drain(..))
             .filter_map(|place| {
@@ -71,7 +71,7 @@ impl Camera {
         }
         if let Some(patch) = Patch::difference(&self.last, &drawn) {
             let nanosecond = i64::try_from(time.as_nanosecond()).unwrap_or(i64::MAX);
-            // Neither can fail: a vector takes everything, and the patch is JSON already.
+            // Neither step can fail: a vector accepts everything, and the patch is valid JSON.
             let _ = serde_json::to_writer(&mut self.waiting, &(nanosecond, patch));
             self.waiting.push(b'\n');
         }
@@ -91,7 +91,7 @@ impl Camera {
         }
     }
 
-    /// A file comes into use that has nothing of this film, or something is missing in it.
+    /// Starts the film again, for a file without this film or after a missing part.
     pub(in crate::record) fn begin_anew(&mut self) {
         *self = Self {
             parts: Parts { last: self.parts.last, ..Parts::default() },
@@ -101,7 +101,7 @@ impl Camera {
         };
     }
 
-    /// Pictures are missing before the next one.
+    /// Ends the reel, because pictures are missing before the next one.
     pub(in crate::record) fn cut(&mut self) {
         if !self.last.is_null() {
             self.end_reel();
@@ -119,7 +119,7 @@ impl Camera {
         self.piece = 0;
     }
 
-    /// Writes what is new.
+    /// Writes new parts and pictures.
     pub(in crate::record) fn write(
         &self,
         tx: &Transaction<'_>,
@@ -136,7 +136,7 @@ impl Camera {
              VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
         )?;
         for (number, [from_us, until_us], lines) in &self.pending {
-            // All at once takes less than its pieces.
+            // A whole reel takes less space than its pieces.
             tx.prepare_cached("DELETE FROM reel WHERE run = ?1 AND number = ?2")?
                 .execute(params![run, number])?;
             piece.execute(params![run, number, 0, from_us, until_us, deflated(lines)?])?;

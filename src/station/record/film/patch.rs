@@ -5,36 +5,36 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// Max items that may leave the front of a list between two pictures; a list that loses more is
-/// written whole.
+/// Max number of items that may leave the front of a list between two pictures. A list that loses
+/// more is written whole.
 const MAX_DROPPED: usize = 8;
 
-/// A change of a value.
+/// Change of a value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) enum Patch {
-    /// Another value.
+    /// New value.
     #[serde(rename = "=")]
     Put(Value),
     /// Changes of fields of an object.
     #[serde(rename = "f")]
     Fields(BTreeMap<String, Patch>),
-    /// A field that is gone.
+    /// Removed field.
     #[serde(rename = "-")]
     Gone,
     /// Changes of items of a list.
     #[serde(rename = "i")]
     Items(BTreeMap<usize, Patch>),
-    /// So many items gone at the front of a list, and these new at its end.
+    /// Number of items removed at the front of a list, and new items at its end.
     #[serde(rename = "s")]
     Slide(usize, Vec<Value>),
 }
 
-/// The patch does not fit the value.
+/// Error of a patch that does not fit the value.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Misfit;
 
 impl Patch {
-    /// Returns the patch that turns `old` into `new`; `None` where they are the same.
+    /// Returns the patch that turns `old` into `new`; `None` if they are equal.
     pub(super) fn difference(old: &Value, new: &Value) -> Option<Self> {
         match (old, new) {
             (Value::Object(old), Value::Object(new)) => {
@@ -75,7 +75,7 @@ impl Patch {
         Some(Self::Items(items.collect()))
     }
 
-    /// Makes the new value of the old one.
+    /// Turns the old value into the new one.
     pub(super) fn apply(self, value: &mut Value) -> Result<(), Misfit> {
         match (self, value) {
             (Self::Put(new), value) => *value = new,
@@ -130,7 +130,7 @@ mod tests {
         })
     }
 
-    /// The patch as it is written down and read again.
+    /// Returns the patch after writing and reading it.
     fn written(patch: &Patch) -> Patch {
         serde_json::from_str(&serde_json::to_string(patch).unwrap()).unwrap()
     }

@@ -1,4 +1,4 @@
-//! Reads the film.
+//! Reader of the film.
 
 use std::{io::Read as _, path::Path, time::Duration};
 
@@ -15,12 +15,12 @@ use crate::{
     station::AntennaId,
 };
 
-/// Why a moment cannot be shown.
+/// Reason why a moment cannot be shown.
 #[derive(Debug, thiserror::Error)]
 pub enum FilmError {
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// An older program recorded, and nothing since.
+    /// Only an older program without film wrote this record.
     #[error("nothing was filmed yet")]
     None,
     #[error("the film is damaged there")]
@@ -45,33 +45,34 @@ impl From<Misfit> for FilmError {
     }
 }
 
-/// The reel goes on where another one of its run ends. Others follow on a stretch without film.
+/// SQL condition for a reel that directly continues another reel of its run. Other reels follow a
+/// stretch without film.
 const FOLLOWS: &str = "EXISTS (SELECT 1 FROM reel AS before WHERE before.run = reel.run \
     AND before.number = reel.number - 1)";
 
-/// A film to be read.
+/// Film of a record, opened for reading.
 pub struct Film {
     db: Connection,
     reel: Option<Reel>,
 }
 
-/// A reel, wound to one of its pictures.
+/// Reel at one of its pictures.
 struct Reel {
     run: i64,
     number: i64,
-    /// Number of pieces that were read of it, and the time of the last picture in them.
+    /// Number of pieces read, and the time of their last picture.
     pieces: (i64, i64),
-    /// The pictures with their times, nanoseconds of UTC.
+    /// Pictures with their times, nanoseconds of UTC.
     pictures: Vec<(i64, Patch)>,
-    /// How many of them have made `picture`.
+    /// Number of pictures that are applied in `picture`.
     place: usize,
     picture: Value,
 }
 
-/// A picture of the film.
+/// Picture of the film.
 #[derive(Debug)]
 pub struct Shown<'a> {
-    /// Number of the run that it is of, for its parts.
+    /// Number of the picture's run, for its parts.
     pub run: i64,
     pub picture: &'a Value,
 }
@@ -86,7 +87,7 @@ impl Film {
         Ok(Self { db, reel: None })
     }
 
-    /// Times of the first and the last picture.
+    /// Returns the times of the first and the last picture.
     pub fn span(&self) -> Result<Option<(Timestamp, Timestamp)>, FilmError> {
         let sql = "SELECT min(from_us), (SELECT until_us FROM reel ORDER BY from_us DESC, piece DESC \
                    LIMIT 1) FROM reel";
@@ -96,7 +97,7 @@ impl Film {
         Ok(time(ends.0).zip(time(ends.1)))
     }
 
-    /// Returns the picture that was shown at `time`: the last one that is not later.
+    /// Returns the picture shown at `time`: the last picture that is not later.
     pub fn seek(&mut self, time: Timestamp) -> Result<Option<Shown<'_>>, FilmError> {
         let at_ns = i64::try_from(time.as_nanosecond()).unwrap_or(i64::MAX);
         let holds = |reel: &Reel| {
@@ -116,10 +117,10 @@ impl Film {
         Ok((reel.place > 0).then_some(Shown { run: reel.run, picture: &reel.picture }))
     }
 
-    /// Takes the reel of a moment, or what was added to it since.
+    /// Loads the reel of a moment, or its new pieces.
     fn load(&mut self, time: Timestamp) -> Result<(), FilmError> {
-        // A clock that was read to the nanosecond is a little before its microsecond.
-        // The same reel may be written again as fewer pieces that hold more.
+        // `from_us` is rounded down to a microsecond, so the reel may begin slightly later. A reel
+        // may also be rewritten as fewer pieces with more content.
         let sql = "SELECT run, number, count(*), max(until_us) FROM reel JOIN (SELECT run, number FROM reel \
                    WHERE from_us <= ?1 ORDER BY from_us DESC LIMIT 1) USING (run, number) \
                    GROUP BY run, number";
@@ -155,7 +156,7 @@ impl Film {
         Ok(())
     }
 
-    /// A large part of a picture of this run.
+    /// Returns a large part of a picture of this run.
     pub fn part(&self, run: i64, number: i64) -> Result<Vec<u8>, FilmError> {
         let mut statement =
             self.db.prepare_cached("SELECT content FROM part WHERE run = ?1 AND number = ?2")?;
@@ -164,7 +165,7 @@ impl Film {
         inflated(&content.ok_or(FilmError::Damaged)?)
     }
 
-    /// Time of the first event after `time`, or of the last one before it.
+    /// Returns the time of the first event after `time`, or of the last event before it.
     pub fn event(&self, time: Timestamp, is_after: bool) -> Result<Option<Timestamp>, FilmError> {
         let sql = if is_after {
             "SELECT min(utc_us) FROM event WHERE utc_us > ?1"
@@ -176,7 +177,7 @@ impl Film {
         Ok(us.and_then(|us| Timestamp::from_microsecond(us).ok()))
     }
 
-    /// Time of the first picture that shows what was recorded at `moment`.
+    /// Returns the time of the first picture that shows an entry recorded at `moment`.
     pub fn shown_from(&mut self, moment: Timestamp) -> Result<Timestamp, FilmError> {
         self.load(moment)?;
         let at_ns = i64::try_from(moment.as_nanosecond()).unwrap_or(i64::MAX);
@@ -192,12 +193,12 @@ impl Film {
             .db
             .prepare_cached("SELECT min(from_us) FROM reel WHERE from_us > ?1")?
             .query_row([moment.as_microsecond()], |row| row.get(0))?;
-        // Its first picture is within this microsecond.
+        // The first picture of the next reel is within this microsecond.
         Ok(next.and_then(|us| Timestamp::from_microsecond(us + 1).ok()).unwrap_or(moment))
     }
 
-    /// Returns the last gap of the film between two moments: the program did not run, pictures were
-    /// lost, or the film is not kept any more.
+    /// Returns the last gap of the film between two moments. In a gap, the program did not run,
+    /// pictures were lost, or the film was removed for its age.
     pub fn hole(
         &self,
         start: Timestamp,
@@ -242,7 +243,7 @@ impl Film {
         let time = |us| Timestamp::from_microsecond(us).ok();
         let (ended_us, begun_us, follows) = match (ended_us, next) {
             (Some(ended_us), Some((begun_us, follows))) => (ended_us, begun_us, follows),
-            // Before all film that is kept.
+            // The moment is before all stored film.
             (None, Some((begun_us, _))) => return Ok(Some(moment).zip(time(begun_us + 1))),
             (_, None) => return Ok(None),
         };
@@ -251,7 +252,7 @@ impl Film {
         Ok(time(ended_us).zip(time(begun_us + 1)).filter(|_| is_between))
     }
 
-    /// The lines on the link of an antenna after `start`, up to `last`, oldest first.
+    /// Returns the lines on the link of an antenna after `start`, up to `end`, oldest first.
     pub fn lines(
         &self,
         antenna: AntennaId,
@@ -273,7 +274,7 @@ impl Film {
             let meaning: Option<String> = row.get(5)?;
             let reply_us: Option<i64> = row.get(6)?;
             let is_sent: bool = row.get(1)?;
-            // Which good lines had a checksum is not kept.
+            // The record does not store which good lines had a checksum.
             let good = Ok(Finding::Unchecked);
             let finding = fault.map_or(good, |fault| serde_json::from_str(&fault))?;
             lines.push(WireLine {
@@ -295,7 +296,7 @@ impl Film {
 }
 
 impl Reel {
-    /// Makes the last picture that is not later than `at_ns`.
+    /// Winds to the last picture that is not later than `at_ns`.
     fn wind_to(&mut self, at_ns: i64) -> Result<(), FilmError> {
         let place = self.pictures.partition_point(|(time, _)| *time <= at_ns);
         if place < self.place {
@@ -309,8 +310,8 @@ impl Reel {
     }
 }
 
-/// Maximum inflated size of a part of a film, bytes: far more than Azel writes. It guards against a
-/// file that another program made.
+/// Max inflated size of a part of a film, bytes: far more than Azel writes. The limit guards
+/// against files of other programs.
 const MAX_INFLATED: u64 = 64 << 20;
 
 fn inflated(bytes: &[u8]) -> Result<Vec<u8>, FilmError> {

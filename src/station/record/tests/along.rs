@@ -1,4 +1,4 @@
-//! Passes of a record along the time.
+//! Tests of a record's passes in order of time.
 
 use jiff::{Timestamp, ToSpan as _};
 use serde_json::json;
@@ -23,7 +23,7 @@ fn time(minute: i64) -> Timestamp {
     start() + minute.minutes()
 }
 
-/// A pass from `minute` on.
+/// Returns a pass that starts at `minute`.
 fn note(antenna: AntennaId, satellite: u32, minute: i64) -> PassNote {
     testing::note(antenna, satellite, time(minute))
 }
@@ -33,7 +33,7 @@ fn each_pass_is_the_neighbour_of_the_next_and_other_antennas_count_once() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("record.sqlite");
     let other = AntennaId(5);
-    // In the order in which they ended.
+    // The passes are in order of their ends.
     let notes = [
         note(DISH, ISS, 0),
         note(DISH, NOAA_20, 60),
@@ -74,7 +74,7 @@ fn a_stretch_has_the_times_of_the_passes_in_it() {
     assert_eq!(times_of_pass(&path, 9, site).unwrap(), None);
 }
 
-/// Entry of the outcome of a pass that began at `minute`, written eleven minutes later.
+/// Returns the day entry of a pass that began at `minute`, written eleven minutes later.
 fn day_line(satellite: u32, name: &str, minute: i64) -> Entry {
     let moment = Moment { utc: time(minute + 11), steady: Instant::now() };
     let flown = json!({ "pass": [satellite, time(minute)], "name": name });

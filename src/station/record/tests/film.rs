@@ -1,4 +1,4 @@
-//! The film as it is written and read.
+//! Tests of writing and reading the film.
 
 use std::{fs, path::Path, sync::Arc};
 
@@ -12,7 +12,7 @@ use crate::{
     station::Retention,
 };
 
-/// A picture of two figures, a part, and what stands at a place for ten seconds.
+/// Picture with two numbers, a part, and a value that changes every ten seconds.
 struct Figures {
     second: f64,
     value: i64,
@@ -39,7 +39,7 @@ impl Picture for Figures {
     }
 }
 
-/// Records a picture a second.
+/// Records one picture a second.
 fn film(path: &Path, seconds: std::ops::Range<u32>, part: &Arc<String>) {
     let recorder = recorder(path);
     let mut stands = Arc::new(-1);
@@ -65,7 +65,7 @@ fn shown(film: &mut Film, second: f64) -> Option<(f64, i64, String)> {
     Some((picture["second"].as_f64()?, picture["value"].as_i64()?, part))
 }
 
-/// The picture of `expected` is shown at `second`.
+/// Returns `true` if the film shows the picture of second `expected` at `second`.
 fn shows(film: &mut Film, second: f64, expected: f64) -> bool {
     shown(film, second).is_some_and(|(shown, ..)| (shown - expected).abs() < 1e-9)
 }
@@ -119,7 +119,7 @@ fn pictures_that_were_lost_within_a_run_are_told_as_a_hole() {
     let blocked = folder.path().join("records");
     let path = blocked.join("record.sqlite");
     let recorder = recorder(&path);
-    // So large that some of them do not fit into what waits for a disk.
+    // Some pictures are so large that they exceed the max size of pending pictures.
     let take = |second: u32, size: usize| {
         let (second, value) = (f64::from(second), i64::from(second / 10));
         let part = Arc::new("x".repeat(size));
@@ -127,7 +127,7 @@ fn pictures_that_were_lost_within_a_run_are_told_as_a_hole() {
     };
     (0..30).for_each(|second| take(second, 10));
     recorder.flush();
-    // A file where the folder has to be.
+    // A file blocks the place of the folder.
     let aside_path = folder.path().join("aside");
     fs::rename(&blocked, &aside_path).unwrap();
     fs::write(&blocked, "").unwrap();

@@ -1,4 +1,4 @@
-//! Conclusions from several passes of a record together.
+//! Tests of conclusions from several passes of a record.
 
 use jiff::{Timestamp, ToSpan as _};
 

@@ -1,4 +1,4 @@
-//! Events during a pass.
+//! Tests of events during a pass.
 
 use jiff::{Timestamp, ToSpan as _};
 use serde_json::{Value, json};
@@ -57,7 +57,7 @@ fn gaps_and_stops_that_were_pressed_for_an_antenna_are_told_of_its_pass() {
     let expected = [("gap", -3), ("stop", 1), ("stop", 3), ("gap", 30)]
         .map(|(name, minute)| (name.to_owned(), time(minute)));
     assert_eq!(events(&opened.entries), expected);
-    // The one who looks through the log of an antenna wants them as well.
+    // A reader of the antenna's log also gets these rows.
     let query = Query {
         antenna: Some("Dish".to_owned()),
         row_kinds: vec![RowKind::Entry(Kind::Stop), RowKind::Entry(Kind::Gap)],

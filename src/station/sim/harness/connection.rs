@@ -7,11 +7,11 @@ use tokio::io::{AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt};
 use super::{Control, Unit, Wire};
 use crate::clock::{Clock, Instant};
 
-/// Time after which a client that reads nothing is dropped.
+/// Timeout for writing to a client that does not read.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(5);
 /// Pause between two pieces with [`Unit::SPLIT`].
 const SPLIT_PAUSE: Duration = Duration::from_millis(5);
-/// Number of waiting replies beyond which nothing is read.
+/// Max number of pending replies; beyond it, the unit reads nothing.
 const MAX_WAITING: usize = 64;
 
 impl<U: Unit> Control<U> {
@@ -24,7 +24,7 @@ impl<U: Unit> Control<U> {
     }
 }
 
-/// Serves one client on `wire`, as [`Control::serve`] does.
+/// Serves one client on `wire`, like [`Control::serve`].
 pub(in crate::sim) async fn serve<U, S>(
     control: &Control<U>,
     wire: U::Wire,
@@ -39,7 +39,7 @@ where
     Connection { control, wire, stream, replies, sent: 0 }.run().await
 }
 
-/// Queue of replies, each with its time to go out.
+/// Queue of replies, each with its send time.
 #[derive(Debug)]
 pub struct Replies<R> {
     waiting: VecDeque<(Instant, R)>,
@@ -48,7 +48,7 @@ pub struct Replies<R> {
 }
 
 impl<R> Replies<R> {
-    /// Queues `reply`, to go out `delay` after the one before it.
+    /// Queues `reply`, to be sent `delay` after the previous reply.
     pub(in crate::sim) fn push(&mut self, reply: R, delay: Duration) {
         let last_due = self.waiting.back().map(|(due, _)| *due);
         let now = self.clock.now().steady;
@@ -59,7 +59,7 @@ impl<R> Replies<R> {
         self.waiting.push_back((due, reply));
     }
 
-    /// Queues `reply`, to go out right after those before it.
+    /// Queues `reply`, to be sent right after the previous replies.
     pub(in crate::sim) fn push_now(&mut self, reply: R) {
         self.waiting.push_back((self.clock.now().steady, reply));
     }
@@ -70,7 +70,7 @@ struct Connection<'a, U: Unit, S> {
     wire: U::Wire,
     stream: S,
     replies: Replies<<U::Wire as Wire<U>>::Reply>,
-    /// Number of replies that went out or were lost.
+    /// Number of replies that were sent or lost.
     sent: u64,
 }
 
@@ -83,7 +83,7 @@ impl<U: Unit, S: AsyncRead + AsyncWrite + Unpin> Connection<'_, U, S> {
             let waiting = &self.replies.waiting;
             let due = waiting.front().map(|(due, _)| *due);
             tokio::select! {
-                // In paused time the same events have the same order.
+                // A fixed order makes events in paused time repeatable.
                 biased;
                 read = self.stream.read(&mut buffer), if waiting.len() < MAX_WAITING => {
                     let count = read?;

@@ -1,4 +1,4 @@
-//! A running unit, shared by its connections, and the handle that controls it.
+//! Running unit, shared by its connections, and the handle that controls it.
 
 use std::{
     collections::{BTreeSet, VecDeque},
@@ -15,10 +15,10 @@ use crate::{
     sim::prng::Prng,
 };
 
-/// Maximum number of remembered requests.
+/// Max number of stored requests.
 const REMEMBERED_REQUESTS: usize = 10_000;
 
-/// Handle of a simulated unit; clones control the same one.
+/// Handle of a simulated unit; clones control the same unit.
 #[derive(Debug)]
 pub struct Control<U: Unit> {
     shared: Arc<Shared<U>>,
@@ -30,7 +30,7 @@ struct Shared<U: Unit> {
     started: Instant,
     reply_delay: RangeInclusive<Duration>,
     inner: Mutex<Inner<U>>,
-    /// Counts how often all clients were dropped.
+    /// Number of times that all clients were dropped.
     drops: watch::Sender<u64>,
 }
 
@@ -51,7 +51,7 @@ impl<U: Unit> Clone for Control<U> {
 }
 
 impl<U: Unit> Control<U> {
-    /// Starts `unit` without a port. The delay between request and reply is spread evenly over
+    /// Starts `unit` without a port. The delay between request and reply is evenly distributed over
     /// `reply_delay`.
     pub(in crate::sim) fn start(
         mut unit: U,
@@ -93,27 +93,27 @@ impl<U: Unit> Control<U> {
         unit.set_switches(switches);
     }
 
-    /// Puts both axes elsewhere, as if by hand; they stand there.
+    /// Moves both axes to a place at once, as if by hand; the axes rest there.
     pub fn place(&self, place: U::Place) {
         self.live().unit.place(place);
     }
 
-    /// Closes every connection. The unit goes on with its activity.
+    /// Closes every connection. The unit continues its activity.
     pub fn drop_clients(&self) {
         self.shared.drops.send_modify(|count| *count += 1);
     }
 
-    /// The last 10 000 complete requests, oldest first, without secrets.
+    /// Returns the last 10 000 complete requests, oldest first, without secrets.
     pub fn received(&self) -> Vec<(Instant, U::Request)> {
         self.lock().received.iter().cloned().collect()
     }
 
-    /// Present state of the unit.
+    /// Returns the current state of the unit.
     pub fn state(&self) -> U::Snapshot {
         self.live().unit.snapshot()
     }
 
-    /// Remembers `request` and carries it out.
+    /// Stores `request` and carries it out.
     pub(in crate::sim) fn carry_out<R>(
         &self,
         request: U::Request,
@@ -127,12 +127,12 @@ impl<U: Unit> Control<U> {
         carry_out(&mut inner.unit)
     }
 
-    /// Changes the unit in a way that no client could.
+    /// Changes the unit in a way that no client can.
     pub(in crate::sim) fn with_unit<R>(&self, change: impl FnOnce(&mut U) -> R) -> R {
         change(&mut self.live().unit)
     }
 
-    /// Advances the unit to the present.
+    /// Advances the unit to the current time.
     pub(in crate::sim) fn live_on(&self) {
         drop(self.live());
     }
@@ -144,7 +144,7 @@ impl<U: Unit> Control<U> {
         inner
     }
 
-    /// Clock of the unit, which runs on its steady side.
+    /// Returns the unit's clock. Its steady time drives the unit.
     pub(in crate::sim) fn clock(&self) -> &Clock {
         &self.shared.clock
     }
@@ -157,7 +157,7 @@ impl<U: Unit> Control<U> {
         self.lock().unit.wire()
     }
 
-    /// Random delay for the next reply.
+    /// Returns a random delay for the next reply.
     pub(in crate::sim) fn reply_delay(&self) -> Duration {
         let micros = |delay: &Duration| u64::try_from(delay.as_micros()).unwrap_or(u64::MAX);
         let max = *self.shared.reply_delay.end() + self.lock().lateness;
@@ -166,22 +166,22 @@ impl<U: Unit> Control<U> {
         )
     }
 
-    /// Lets replies take up to `lateness` longer.
+    /// Sets the max extra reply delay.
     pub(super) fn set_lateness(&self, lateness: Duration) {
         self.lock().lateness = lateness;
     }
 
-    /// Random number in `range`.
+    /// Returns a random number in `range`.
     pub(super) fn random(&self, range: &RangeInclusive<u64>) -> u64 {
         self.lock().prng.in_range(*range.start(), *range.end())
     }
 
-    /// Changes when all clients must be dropped.
+    /// Returns a receiver that changes when all clients must be dropped.
     pub(super) fn drops(&self) -> watch::Receiver<u64> {
         self.shared.drops.subscribe()
     }
 
-    /// Ignores poisoning: a panic elsewhere leaves nothing half done that matters here.
+    /// Locks the state. Ignores poisoning: a panic elsewhere leaves no harmful partial change.
     fn lock(&self) -> MutexGuard<'_, Inner<U>> {
         self.shared.inner.lock().unwrap_or_else(PoisonError::into_inner)
     }

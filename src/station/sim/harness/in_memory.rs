@@ -1,4 +1,4 @@
-//! A unit in memory whose make does not matter to who serves and disturbs it.
+//! Unit in memory, behind an interface that hides its make.
 
 use std::{future::Future, pin::Pin, time::Duration};
 
@@ -7,10 +7,10 @@ use tokio::io::DuplexStream;
 use super::{Control, Unit};
 use crate::astro::PointingModel;
 
-/// Trouble that a unit of any make can be given.
+/// Trouble for a unit of any make.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Trouble {
-    /// No reply comes; what is asked for is carried out.
+    /// No reply comes, but the unit carries out commands.
     Silence,
     /// Noise precedes each reply.
     Noise,
@@ -22,34 +22,35 @@ pub enum Trouble {
     ClockLate(Duration),
     /// The unit follows its track late, although its clock is right.
     TrackLate(Duration),
-    /// The unit has lost GPS, and its own clock gains so many seconds a day.
+    /// The unit has lost GPS, and its own clock gains this many seconds a day.
     ClockDrifts(f64),
     /// Max extra reply delay.
     LateReplies(Duration),
-    /// The sensors of the axes read something else.
+    /// The sensors of the axes have these errors.
     Misreads(Misreading),
 }
 
-/// Errors of the sensors of an antenna's axes. The drives are led by the true angles.
+/// Errors of the sensors of an antenna's axes. The true angles still control the drives.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Misreading {
     pub model: PointingModel,
-    /// Standard deviation of either angle on the sky, degrees.
+    /// Standard deviation of each angle on the sky, degrees.
     pub noise_deg: f64,
 }
 
-/// A simulated unit of any make, without a port.
+/// Simulated unit of any make, without a port.
 pub trait InMemory: Send + Sync {
     /// Serves one client until it leaves or is dropped.
     fn serve(&self, stream: DuplexStream) -> Pin<Box<dyn Future<Output = ()> + Send>>;
 
-    /// Closes every connection. The unit goes on with its activity.
+    /// Closes every connection. The unit continues its activity.
     fn drop_clients(&self);
 
-    /// Cuts the unit's power: its connections close, its drives stop and a track ends. It answers again at once.
+    /// Cuts the unit's power: its connections close, its drives stop and a track ends. The unit
+    /// accepts new connections at once.
     fn cut_power(&self);
 
-    /// Begins or ends a trouble. Returns `false` for one that this make cannot have.
+    /// Begins or ends a trouble. Returns `false` if this make cannot have it.
     fn set_trouble(&self, trouble: Trouble, is_on: bool) -> bool;
 }
 

@@ -1,4 +1,4 @@
-//! A simulated unit on a TCP port.
+//! Simulated unit on a TCP port.
 
 use std::{io, net::SocketAddr, sync::Arc, time::Duration};
 
@@ -9,7 +9,7 @@ use super::{Control, Unit};
 /// Interval at which a unit advances without requests.
 pub(in crate::sim) const HEARTBEAT: Duration = Duration::from_millis(250);
 
-/// A unit that listens on a TCP port.
+/// Unit that listens on a TCP port.
 #[derive(Debug)]
 pub struct Simulator<U: Unit> {
     listener: TcpListener,
@@ -18,8 +18,8 @@ pub struct Simulator<U: Unit> {
 }
 
 impl<U: Unit> Simulator<U> {
-    /// Listens at `address`; port 0 takes a free one. Closes further clients than
-    /// `max_clients` at once.
+    /// Listens at `address`; port 0 selects a free port. Closes connections beyond `max_clients` at
+    /// once.
     pub(in crate::sim) async fn listen(
         address: SocketAddr,
         control: Control<U>,
@@ -32,12 +32,12 @@ impl<U: Unit> Simulator<U> {
         })
     }
 
-    /// Address at which the unit listens.
+    /// Returns the address at which the unit listens.
     pub fn local_addr(&self) -> io::Result<SocketAddr> {
         self.listener.local_addr()
     }
 
-    /// Handle to watch and disturb the unit.
+    /// Returns a handle for watching and disturbing the unit.
     pub fn control(&self) -> Control<U> {
         self.control.clone()
     }
@@ -58,14 +58,14 @@ impl<U: Unit> Simulator<U> {
                         let control = self.control.clone();
                         clients.spawn(async move {
                             let _place = place;
-                            // Small frames should leave at once; if this fails they leave too.
+                            // Send small frames at once; a failure only delays them.
                             stream.set_nodelay(true).ok();
                             let result = control.serve(stream).await;
                             tracing::info!(target: "azel::sim", ?result, %peer, "client left");
                         });
                     }
-                    // Out of handles, or the client has left again: try once more after the next
-                    // heartbeat.
+                    // No handles are left, or the client has already gone: accept again after the
+                    // next heartbeat.
                     Err(error) => {
                         tracing::warn!(target: "azel::sim", %error, "no client accepted");
                         heartbeat.tick().await;

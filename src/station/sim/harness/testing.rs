@@ -9,10 +9,10 @@ use tokio::{
 
 use super::{Control, Unit};
 
-/// Time to wait for a reply.
+/// Timeout for a reply.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// A client that reads with the decoder `D`.
+/// Client that reads with the decoder `D`.
 pub(in crate::sim) struct Client<D> {
     pub(in crate::sim) stream: DuplexStream,
     pub(in crate::sim) decoder: D,
@@ -36,7 +36,8 @@ impl<D: Iterator> Client<D> {
         self.stream.write_all(bytes).await.unwrap();
     }
 
-    /// Next item of the decoder; `None` if nothing comes within 2 s or the connection ends.
+    /// Returns the next item of the decoder; `None` after 2 s without an item or at the end of the
+    /// connection.
     pub(in crate::sim) async fn receive(&mut self) -> Option<D::Item> {
         let mut buffer = [0; 512];
         loop {

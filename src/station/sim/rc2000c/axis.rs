@@ -1,5 +1,4 @@
-//! A driven axis, in counts of its sensor. Slow speed and ramps are the simulator's own
-//! choices.
+//! Driven axis, in counts of its sensor. Slow speed and ramps are the simulator's own choices.
 
 use std::ops::RangeInclusive;
 
@@ -9,40 +8,40 @@ use crate::{
     sim::mechanics::{CommandDelay, Gear, Mechanics, MinimumRun, Sensor},
 };
 
-/// Share of slow speed in the full rate.
+/// Slow speed as a share of the full rate.
 const SLOW: f64 = 0.2;
-/// Time in which a drive comes to its full rate, seconds.
+/// Time from rest to full rate, seconds.
 const RAMP_S: f64 = 0.5;
-/// Time in which an axis without power comes to rest from it, seconds.
+/// Time from full rate to rest without power, seconds.
 const COAST_S: f64 = 0.8;
-/// Distance within which an auto move has arrived.
+/// Distance within which an auto move has arrived, counts.
 const ARRIVED_COUNTS: f64 = 0.3;
-/// Time without motion after which a drive is jammed.
+/// Time without motion that jams a drive, seconds.
 const STALL_S: f64 = 1.0;
 
 /// Goal of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Goal {
-    /// No power: coast and stand.
+    /// No power: the axis coasts to rest.
     Still,
-    /// Turn for a time.
+    /// Turn for a limited time.
     Jog { sense: Sense, rate_counts_s: f64, left_s: f64 },
-    /// Go to a count and stand there.
+    /// Motion to a count, where the axis rests.
     AutoMove(f64),
 }
 
 /// External trouble of an axis.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Trouble {
-    /// The axis cannot be turned.
+    /// `true` if the axis cannot be turned.
     pub(super) is_stuck: bool,
-    /// The drive takes too much current.
+    /// `true` if the drive takes too much current.
     pub(super) is_overloaded: bool,
-    /// The axis turns without a command.
+    /// `true` if the axis turns without a command.
     pub(super) runs_away: bool,
 }
 
-/// A driven axis.
+/// Driven axis with drive, gear and sensor.
 #[derive(Debug, Clone)]
 pub(super) struct Axis {
     counts: f64,
@@ -62,7 +61,7 @@ pub(super) struct Axis {
     full_rate_counts_s: f64,
     /// Remaining share of the full rate, 0 to 1.
     strength: f64,
-    /// Only the elevation reports its limits as an alarm.
+    /// `true` for the elevation, the only axis that reports its limits as an alarm.
     has_limit_alarm: bool,
     trouble: Trouble,
     alarm: Option<AxisDrive>,
@@ -111,22 +110,22 @@ impl Axis {
         self.full_rate_counts_s * self.strength
     }
 
-    /// Acceleration of the drive.
+    /// Returns the acceleration of the drive, counts per second squared.
     fn ramp_counts_s2(&self) -> f64 {
         self.full_rate_counts_s / RAMP_S
     }
 
-    /// Deceleration of an axis without power.
+    /// Returns the deceleration of an axis without power, counts per second squared.
     fn coast_counts_s2(&self) -> f64 {
         self.full_rate_counts_s / self.coasting_s
     }
 
-    /// Reading of the sensor.
+    /// Returns the reading of the sensor, counts.
     pub(super) fn counts(&self) -> u16 {
         (self.counts + self.sensor.error_deg() * self.counts_per_deg).round() as u16
     }
 
-    /// Limit at which the axis stands.
+    /// Returns the limit at which the axis rests; `None` between the limits.
     pub(super) fn limit(&self) -> Option<Sense> {
         if self.counts <= *self.travel.start() {
             Some(Sense::Negative)
@@ -141,7 +140,7 @@ impl Axis {
         self.travel.contains(&counts.into())
     }
 
-    /// Reported state. An axis that coasts is reported as still.
+    /// Returns the reported state. A coasting axis is reported as still.
     pub(super) fn drive(&self) -> AxisDrive {
         if let Some(alarm) = self.alarm {
             return alarm;
@@ -156,7 +155,7 @@ impl Axis {
         }
     }
 
-    /// Returns `true` if the metal turns.
+    /// Returns `true` if the axis really turns.
     pub(super) fn is_turning(&self) -> bool {
         self.rate_counts_s != 0.0
     }
@@ -210,7 +209,7 @@ impl Axis {
         }
     }
 
-    /// Clears the alarm; it comes back while its cause lasts.
+    /// Clears the alarm, which returns while its cause lasts.
     pub(super) fn reset(&mut self) {
         self.alarm = None;
         self.stalled_s = 0.0;
@@ -305,10 +304,10 @@ impl Axis {
         }
     }
 
-    /// Fastest rate from which the axis can still halt at `target`.
+    /// Returns the max rate from which the axis can still stop at `target`, counts per second.
     fn approach(&self, target: f64, step_s: f64) -> f64 {
         let distance = target - self.counts;
-        // Less than the actual braking, so that the braking never falls behind.
+        // Plan less than the actual braking, so that the braking never comes too late.
         let brake = 0.8 * self.coast_counts_s2();
         let half = brake * step_s / 2.0;
         let fastest = (half * half + 2.0 * brake * distance.abs()).sqrt() - half;

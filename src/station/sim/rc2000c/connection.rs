@@ -12,12 +12,12 @@ use crate::{
     sim::harness::{self, Replies, Wire},
 };
 
-/// Longest time between characters of one command, unless 20 characters take longer.
+/// Max time between characters of one command, unless 20 characters take longer.
 const LONGEST_GAP: Duration = Duration::from_millis(100);
 const LONGEST_GAP_CHARACTERS: u32 = 20;
 const STX: u8 = 0x02;
 const STX_WITH_PARITY: u8 = 0x82;
-/// Noise: a header, a character of another unit, the beginning of a reply.
+/// Noise: a header, a character of another unit, and the start of a reply.
 const NOISE: &[u8] = b"\x06\x7f\x15\x62\x06";
 
 type Switches = harness::Switches<Quirk, Fault>;
@@ -26,14 +26,14 @@ type Switches = harness::Switches<Quirk, Fault>;
 #[derive(Debug)]
 pub struct Line {
     address: Address,
-    /// Time of ten bits.
+    /// Transmission time of a character of ten bits.
     character_time: Duration,
-    /// Answers have the parity of the last command.
+    /// `true` if answers take the parity of the last command.
     is_as_spoken: bool,
     heard: Parity,
     decoder: Decoder,
     last_read: Option<Instant>,
-    /// Number of replies made, lost ones included.
+    /// Number of replies, including lost ones.
     replies: usize,
 }
 
@@ -50,8 +50,8 @@ impl Line {
         }
     }
 
-    /// A line of eight bits without parity of its own: it answers with parity in the eighth
-    /// bit if the client uses it.
+    /// Returns a line of eight bits without its own parity. It answers with parity in the eighth
+    /// bit if the client uses such parity.
     #[cfg(unix)]
     pub(super) fn answering_as_spoken(self) -> Self {
         Self { is_as_spoken: true, ..self }
@@ -86,7 +86,7 @@ impl Line {
 }
 
 impl Wire<Rc2000c> for Line {
-    /// Characters without parity.
+    /// Characters of a reply, without parity.
     type Reply = Vec<u8>;
 
     const MERGE_TIME: Duration = Duration::from_millis(200);
@@ -121,9 +121,9 @@ impl Wire<Rc2000c> for Line {
                 Ok(frame) if frame.header() == Header::Command => {
                     self.carry_out(&frame, control, switches, replies);
                 }
-                // For other units on the bus.
+                // The frame is for another unit on the bus.
                 Ok(_) => {}
-                // Like a real unit: a broken command gets no answer.
+                // A real unit also ignores a broken command.
                 Err(error) => tracing::info!(target: "azel::sim", %error, "refused"),
             }
         }
@@ -136,7 +136,7 @@ impl Wire<Rc2000c> for Line {
     }
 }
 
-/// Bytes to send for reply `number`, counted from 1.
+/// Returns the bytes of reply `number`, counted from 1.
 fn reply_bytes(reply: &Reply, address: Address, number: usize, switches: &Switches) -> Vec<u8> {
     let has = |fault| switches.has_fault(fault);
     let is_third = number.is_multiple_of(3);
@@ -162,7 +162,7 @@ fn reply_bytes(reply: &Reply, address: Address, number: usize, switches: &Switch
     frame
 }
 
-/// The frame with the code of a status, and a checksum to match.
+/// Returns the frame with a status's command code and a matching checksum.
 fn with_wrong_code(mut frame: Vec<u8>) -> Vec<u8> {
     frame.pop();
     if let Some(code) = frame.get_mut(2) {

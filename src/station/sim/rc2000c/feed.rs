@@ -7,16 +7,16 @@ use crate::protocol::rc2000c::{
 };
 
 const RATE_UNITS_S: f64 = 60.0;
-/// Duration of a jog; set in the configuration of a real unit.
+/// Duration of a jog, seconds; a real unit has it in its configuration.
 const JOG_S: f64 = 0.5;
 const POLAROTOR_TRAVEL: RangeInclusive<f64> = 0.0..=661.0;
-/// User's limits of the rotating feed.
+/// User limits of the rotating feed, in its units.
 const ROTATING_TRAVEL: RangeInclusive<f64> = 11.0..=1012.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Goal {
     Still,
-    /// Positive is counter-clockwise.
+    /// Jog with its remaining seconds; a positive sense is counter-clockwise.
     Jog(Sense, f64),
     Position(f64),
 }
@@ -34,7 +34,7 @@ impl Feed {
         Self { is_rotating: false, units: units.into(), goal: Goal::Still }
     }
 
-    /// Changes the kind of device.
+    /// Selects a rotating feed or a polarotor.
     pub(super) fn set_rotating(&mut self, is_rotating: bool) {
         self.is_rotating = is_rotating;
         let travel = self.travel();
@@ -57,7 +57,7 @@ impl Feed {
         self.units.round() as u16
     }
 
-    /// Turns for a fixed time; positive is counter-clockwise.
+    /// Turns for a fixed time; a positive sense is counter-clockwise.
     pub(super) fn jog(&mut self, sense: Sense) {
         self.goal = Goal::Jog(sense, JOG_S);
     }

@@ -15,7 +15,7 @@ use crate::{clock::Clock, protocol::rc2000c::Address};
 pub struct Options {
     /// Address on the bus.
     pub address: Address,
-    /// List of satellites, up to 35.
+    /// Stored satellites, up to 35.
     pub satellites: Vec<StoredSatellite>,
     pub azimuth: AxisOptions,
     pub elevation: AxisOptions,
@@ -23,39 +23,40 @@ pub struct Options {
     pub mechanics: Mechanics,
     /// Oddities of firmware and wiring.
     pub quirks: BTreeSet<Quirk>,
-    /// Failures.
+    /// Failures of the unit and its line.
     pub faults: BTreeSet<Fault>,
-    /// Time from the end of a command to the beginning of its reply.
+    /// Time from the end of a command to the start of its reply.
     pub latency: Duration,
-    /// Speed of the line; the characters of command and reply delay the reply.
+    /// Speed of the line, baud. The characters of command and reply delay the reply.
     pub baud: u32,
-    /// Maximum number of clients; more are closed at once.
+    /// Max number of clients; the unit closes further connections at once.
     pub max_clients: usize,
     /// Seed of all randomness.
     pub seed: u64,
 }
 
-/// An axis, in counts of its sensor.
+/// Options of an axis, in counts of its sensor.
 #[derive(Debug, Clone)]
 pub struct AxisOptions {
     pub travel: RangeInclusive<u16>,
-    /// Full rate, counts a second.
+    /// Full rate, counts per second.
     pub full_rate_counts_s: f64,
     pub counts_per_deg: f64,
 }
 
 impl AxisOptions {
-    /// From the counter-clockwise to the clockwise limit, half a turn; 20 counts are one degree.
+    /// Azimuth of half a turn between its limits; 20 counts are one degree.
     pub const AZIMUTH: Self =
         Self { travel: 30..=3630, full_rate_counts_s: 40.0, counts_per_deg: 20.0 };
-    /// From the horizon to the zenith.
+    /// Elevation from the horizon to the zenith.
     pub const ELEVATION: Self =
         Self { travel: 30..=1830, full_rate_counts_s: 40.0, counts_per_deg: 20.0 };
 }
 
 impl Default for Options {
-    /// A well-behaved unit at address 50 with six satellites: half a turn and a quarter at 2
-    /// degrees a second, replies begin after 15 ms on a line of 9600 baud, one client.
+    /// Returns a unit without faults at address 50, with six satellites and one client. Its axes
+    /// turn half a turn and a quarter turn at 2 degrees per second. Replies begin after 15 ms, at
+    /// 9600 baud.
     fn default() -> Self {
         Self {
             address: Address::FACTORY,
@@ -74,27 +75,27 @@ impl Default for Options {
 }
 
 impl Control {
-    /// A unit that starts now, without a port: see [`Self::serve`].
+    /// Creates a unit that starts now, without a port: see [`Self::serve`].
     pub fn new(options: &Options) -> Self {
         Self::on_clock(options, Clock::system())
     }
 
-    /// Like [`Self::new`], running by `clock`.
+    /// Creates a unit like [`Self::new`] that runs by `clock`.
     pub fn on_clock(options: &Options, clock: Clock) -> Self {
         let Options { quirks, faults, latency, seed, .. } = options;
         let switches = Switches { quirks: quirks.clone(), faults: faults.clone() };
         Self::start(Rc2000c::new(options), switches, *latency..=*latency, *seed, clock)
     }
 
-    /// The local operator presses MODE: the line has no command any more, and the motion it
-    /// asked for ends. The next command takes the panel again.
+    /// Presses MODE for the local operator: the line loses the panel, and its motion ends. The next
+    /// command takes the panel again.
     pub fn use_panel(&self) {
         self.with_unit(Rc2000c::use_panel);
     }
 }
 
 impl Simulator {
-    /// Starts a unit and listens; port 0 takes a free one.
+    /// Starts a unit and listens; port 0 selects a free port.
     pub async fn bind(address: SocketAddr, options: &Options) -> io::Result<Self> {
         Self::listen(address, Control::new(options), options.max_clients).await
     }

@@ -1,4 +1,4 @@
-//! A unit on a pseudo-terminal, as on a serial port.
+//! Unit on a pseudo-terminal, which looks like a serial port.
 
 use std::io;
 use std::os::fd::{AsFd, OwnedFd};
@@ -19,20 +19,19 @@ use crate::sim::harness::{self, HEARTBEAT};
 /// Pause between the end of one connection and the next.
 const RECOVERY: Duration = Duration::from_millis(100);
 
-/// A unit behind a pseudo-terminal, which carries eight bits without parity whatever a
-/// client sets. Therefore a command may come with or without parity in the eighth bit, and
-/// the reply follows it.
+/// Unit behind a pseudo-terminal, which always carries eight bits without parity. A command may
+/// therefore have parity in the eighth bit, and the reply then has it too.
 #[derive(Debug)]
 pub struct PtySimulator {
     control: Control,
     line: Join<Receiver, Sender>,
-    /// Kept open, so that a client that leaves does not hang up the line.
+    /// Open end of the terminal, so that a client that leaves does not hang up the line.
     _terminal: OwnedFd,
     path: PathBuf,
 }
 
 impl PtySimulator {
-    /// Starts a unit and opens a pseudo-terminal for it. Call it inside a tokio runtime with
+    /// Starts a unit and opens a pseudo-terminal for it. Must be called inside a tokio runtime with
     /// I/O.
     pub fn open(options: &Options) -> io::Result<Self> {
         let OpenptyResult { master, slave } = openpty(None, None)?;
@@ -43,7 +42,7 @@ impl PtySimulator {
             fcntl(end, FcntlArg::F_SETFD(FdFlag::FD_CLOEXEC))?;
         }
         fcntl(&master, FcntlArg::F_SETFL(OFlag::O_NONBLOCK))?;
-        // A terminal supports the same waits, reads and writes as a pipe.
+        // A pipe's receiver works here: a terminal supports the same waits, reads and writes.
         let reader = Receiver::from_owned_fd_unchecked(master.try_clone()?)?;
         let writer = Sender::from_owned_fd_unchecked(master)?;
         Ok(Self {
@@ -54,18 +53,17 @@ impl PtySimulator {
         })
     }
 
-    /// Path of the port that a client opens.
+    /// Returns the path of the port for a client.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Handle to watch and disturb the unit.
+    /// Returns a handle for watching and disturbing the unit.
     pub fn control(&self) -> Control {
         self.control.clone()
     }
 
-    /// Serves clients that open the port. Dropping the future ends the unit and closes the
-    /// port.
+    /// Serves clients that open the port. Dropping the future ends the unit and closes the port.
     pub async fn run(self) {
         let Self { control, mut line, path, .. } = self;
         let serve = async {

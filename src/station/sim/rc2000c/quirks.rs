@@ -1,32 +1,32 @@
-//! Oddities of firmware and wiring, and failures, that can be switched on.
+//! Switchable oddities of firmware and wiring, and failures.
 
 use crate::protocol::rc2000c::Alarm;
 use crate::sim::names::named;
 
-/// A way in which a unit or its line may differ from the plainest case.
+/// Difference of a unit or its line from the plainest case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Quirk {
     /// The display, and so the status, shows angles instead of counts.
     AngleDisplay,
-    /// A rotating feed instead of a polarotor.
+    /// The unit has a rotating feed instead of a polarotor.
     RotatingFeed,
-    /// An RC2000A: no track mode, no receiver.
+    /// The unit is an RC2000A, without track mode and receiver.
     Rc2000a,
     /// The reply to the device type query has a wrong command code.
     TypeCode,
-    /// A malformed command gets no answer, as in appendix D.
+    /// The unit does not answer a malformed command, as in appendix D.
     SilentRefusal,
-    /// The words of limits stand at the left of their fields.
+    /// Limit words stand at the left of their fields.
     LeftWords,
-    /// A jog into the limit at which the axis stands is refused.
+    /// The unit refuses a jog into the limit at which the axis rests.
     RefuseAtLimit,
     /// A stop does not end an auto move.
     StopSparesAutoMove,
     /// A stop or a jog does not end the track mode.
     StopSparesTracking,
-    /// The line adapter echoes what the client sends.
+    /// The line adapter echoes the client's bytes.
     Echo,
-    /// The serial server is set to eight bits: the eighth carries even parity.
+    /// The serial server uses eight bits, and the eighth carries even parity.
     ParityBit,
 }
 
@@ -46,10 +46,10 @@ impl Quirk {
     ];
 }
 
-/// A failure.
+/// Failure of the unit or its line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Fault {
-    /// No reply comes; commands are carried out.
+    /// No reply comes, but the unit carries out commands.
     Silence,
     /// Every third reply is lost; its command was carried out.
     DropReply,
@@ -57,15 +57,15 @@ pub enum Fault {
     Garbage,
     /// Replies come in pieces.
     Split,
-    /// Replies are gathered and come together.
+    /// Replies are collected and sent together.
     Merge,
     /// One bit of every third reply is wrong.
     BitError,
     /// Every third reply breaks off in the middle.
     Truncate,
-    /// The configuration accepts no commands: every reply says offline.
+    /// The configuration disables commands: every reply says offline.
     RemoteDisabled,
-    /// Every command except queries is refused.
+    /// The unit refuses every command except queries.
     Refuse,
     /// The azimuth cannot be turned.
     AzimuthJam,
@@ -81,9 +81,9 @@ pub enum Fault {
     ElevationOvercurrent,
     /// The track mode finds its peak at a limit.
     PeakLimit,
-    /// The reported angles stay as they were.
+    /// The reported angles do not change.
     FrozenAngles,
-    /// Both axes are reported to stand, whatever they do.
+    /// Both axes are always reported at rest.
     FalseRest,
     /// The unit shows this alarm.
     Alarm(Alarm),

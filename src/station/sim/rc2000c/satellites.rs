@@ -1,20 +1,20 @@
-//! Satellites stored in the unit.
+//! Satellites in the unit's memory.
 
 use crate::protocol::rc2000c::{PolarizationCode, SatelliteName};
 
-/// Distance in azimuth and elevation within which the name shows in capitals, counts.
+/// Max distance in azimuth and elevation for a name in capitals, counts.
 const ON_COUNTS: [u16; 2] = [15, 10];
-/// Distance within which the name shows in small letters, counts.
+/// Max distance in azimuth and elevation for a name in small letters, counts.
 const NEAR_COUNTS: [u16; 2] = [45, 20];
-/// Distances at which a polarization is the stored one, and is close to it.
+/// Max distances for the stored polarization and for one close to it, feed units.
 const ON_UNITS: u16 = 5;
 const NEAR_UNITS: u16 = 20;
 const MAX_AGC: f64 = 900.0;
 const NOISE_AGC: f64 = 60.0;
-/// Half width of the simulated beam.
+/// Half width of the simulated beam, counts.
 const BEAM_COUNTS: f64 = 25.0;
 
-/// An entry of the list of satellites.
+/// Entry of the list of satellites.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StoredSatellite {
     pub name: SatelliteName,
@@ -26,9 +26,9 @@ pub struct StoredSatellite {
     pub horizontal: u16,
     /// Position of the vertical polarization, in the feed's units.
     pub vertical: u16,
-    /// The orbit is inclined: an auto move to the satellite leads to the track mode.
+    /// `true` for an inclined orbit: an auto move to the satellite starts track mode.
     pub is_inclined: bool,
-    /// The satellite transmits in C and K band.
+    /// `true` if the satellite transmits in C and K band.
     pub is_dual_band: bool,
 }
 
@@ -40,7 +40,7 @@ pub(super) enum Closeness {
 }
 
 impl StoredSatellite {
-    /// Six satellites that a station may have; the fourth is inclined and has both bands.
+    /// Returns six satellites of an example station; the fourth is inclined and has both bands.
     pub fn demo() -> Vec<Self> {
         [
             ("SBS 6", 1525, 750, 263, 593, false),
@@ -65,7 +65,7 @@ impl StoredSatellite {
         .collect()
     }
 
-    /// Closeness of the antenna to this satellite, if it is close at all.
+    /// Returns the closeness of the antenna to this satellite; `None` if it is not close.
     pub(super) fn closeness(&self, counts: [u16; 2]) -> Option<Closeness> {
         let is_within = |window: [u16; 2]| {
             let own = [self.az_counts, self.el_counts];
@@ -81,7 +81,7 @@ impl StoredSatellite {
         }
     }
 
-    /// Stored polarization at this position.
+    /// Returns the stored polarization at this position of the feed.
     pub(super) fn polarization(&self, units: u16) -> PolarizationCode {
         match (self.horizontal.abs_diff(units), self.vertical.abs_diff(units)) {
             (..=ON_UNITS, _) => PolarizationCode::Horizontal,
@@ -92,7 +92,7 @@ impl StoredSatellite {
         }
     }
 
-    /// Level of the receiver at a position of the antenna, 0 to 1023.
+    /// Returns the receiver level at a position of the antenna, 0 to 1023.
     pub(super) fn agc(&self, counts: [u16; 2]) -> u16 {
         let [az, el] = counts;
         let distance = f64::from(self.az_counts.abs_diff(az))

@@ -1,14 +1,14 @@
-//! Track mode: set up, search, then peak the signal at intervals. Times are the
-//! simulator's own choices.
+//! Track mode: setup, search, then peaking of the signal at intervals. Times are the simulator's
+//! own choices.
 
 use crate::protocol::rc2000c::{Band, Polarity, Submode};
 
 const SETUP_S: f64 = 1.0;
 const SEARCH_UNTIL_S: f64 = 5.0;
-/// Time from one peak-up to the next.
+/// Time between two peak-ups, seconds.
 const CYCLE_S: f64 = 30.0;
 const PEAK_UP_S: f64 = 6.0;
-/// Reach of a peak-up to either side.
+/// Reach of a peak-up to each side, counts.
 const PEAK_COUNTS: u16 = 4;
 
 /// State of the track mode while it is on.
@@ -20,7 +20,7 @@ pub(super) struct Tracking {
     error: Option<Submode>,
     pub(super) band: Band,
     pub(super) is_dual_band: bool,
-    /// A polarization requested during a peak-up; waits for its end.
+    /// Polarization requested during a peak-up, which waits for its end.
     pub(super) waiting: Option<Polarity>,
 }
 
@@ -47,7 +47,7 @@ impl Tracking {
         self.error = Some(error);
     }
 
-    /// Clears the error and starts again.
+    /// Clears the error and restarts.
     pub(super) fn restart(&mut self) {
         self.error = None;
         self.running_s = 0.0;
@@ -73,13 +73,13 @@ impl Tracking {
         self.peak_up_s().is_some()
     }
 
-    /// Demanded position of both axes, in counts; `None` while they rest.
+    /// Returns the demanded position of both axes, counts; `None` while they rest.
     pub(super) fn target(&self) -> Option<[u16; 2]> {
         let (az, el) = (self.az_counts, self.el_counts);
         if self.submode() == Submode::Search {
             return Some([az, el]);
         }
-        // A cross: a second to each side, then back.
+        // The axes move in a cross: one second to each side, then back.
         Some(match self.peak_up_s()? {
             ..1.0 => [az.saturating_sub(PEAK_COUNTS), el],
             ..2.0 => [az.saturating_add(PEAK_COUNTS), el],

@@ -1,5 +1,5 @@
-//! The simulated unit: its memory and activity. It has no I/O and no clock: the time since
-//! its start is an argument.
+//! Simulated unit: its memory and activity. It has no I/O and no clock: the caller passes the time
+//! since the start.
 
 mod commands;
 mod peer;
@@ -18,9 +18,9 @@ use crate::sim::Mechanics;
 
 /// Time between two steps of the mount.
 const STEP: Duration = Duration::from_millis(50);
-/// Longest absence that is caught up with; a longer one is skipped.
+/// Max elapsed time that the unit simulates; it skips a longer rest.
 const LONGEST_CATCH_UP: Duration = Duration::from_mins(10);
-/// Position at the start: on the first satellite of the demo.
+/// Position at the start, on the first satellite of the demo, counts.
 const START_COUNTS: [u16; 2] = [1525, 750];
 const START_POLARIZATION: u16 = 263;
 
@@ -29,9 +29,9 @@ const START_POLARIZATION: u16 = 263;
 pub enum Mode {
     /// The local operator at the panel.
     Manual,
-    /// The line.
+    /// A client on the line.
     Remote,
-    /// The unit itself, following a satellite.
+    /// The unit itself, while it follows a satellite.
     Track,
 }
 
@@ -45,7 +45,7 @@ pub struct Snapshot {
     /// Polarization in the feed's units.
     pub polarization_units: u16,
     pub mode: Mode,
-    /// Anything turns, reported or not.
+    /// `true` if anything turns, reported or not.
     pub is_turning: bool,
 }
 
@@ -65,12 +65,12 @@ pub struct Rc2000c {
     seed: u64,
     azimuth: Axis,
     elevation: Axis,
-    /// Counts on a frozen display.
+    /// Frozen counts on the display, if any.
     frozen: Option<[u16; 2]>,
     feed: Feed,
     is_auto_polarization: bool,
     tracking: Option<Tracking>,
-    /// Track mode to begin when the present auto move has arrived.
+    /// Track mode that begins when the current auto move has arrived.
     next_tracking: Option<Tracking>,
 }
 
@@ -101,7 +101,7 @@ impl Rc2000c {
         unit
     }
 
-    /// Applies the quirks and faults. Call it after each change of them.
+    /// Applies the quirks and faults. Must be called after each change of them.
     pub(super) fn suffer(&mut self) {
         let has = |fault| self.faults.contains(&fault);
         self.azimuth.set_trouble(Trouble {
@@ -119,7 +119,7 @@ impl Rc2000c {
         self.feed.set_rotating(self.quirks.contains(&Quirk::RotatingFeed));
     }
 
-    /// The local operator takes the panel: any motion from the line ends.
+    /// Gives the panel to the local operator: any motion from the line ends.
     pub(super) fn use_panel(&mut self) {
         self.mode = Mode::Manual;
         self.tracking = None;
@@ -183,14 +183,14 @@ impl Rc2000c {
         [self.azimuth.counts(), self.elevation.counts()]
     }
 
-    /// The satellite nearest in azimuth.
+    /// Returns the satellite nearest in azimuth.
     fn nearest(&self) -> Option<&StoredSatellite> {
         let az_counts = self.azimuth.counts();
         self.satellites.iter().min_by_key(|satellite| satellite.az_counts.abs_diff(az_counts))
     }
 }
 
-/// Both axes at rest at these counts.
+/// Returns both axes at rest at these counts.
 fn stand(
     [az_counts, el_counts]: [u16; 2],
     [azimuth, elevation]: &[AxisOptions; 2],

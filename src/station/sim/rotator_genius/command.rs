@@ -7,21 +7,21 @@ use crate::protocol::rotator_genius::Request;
 
 /// Length of a configuration without its name, as in the document's example.
 pub(super) const SHORT_CONFIGURATION_BYTES: usize = 12;
-/// Index of the angle in a go-to, and length of the command.
+/// Index of the angle in a go-to, and length of the command, bytes.
 const GO_TO_ANGLE_AT: usize = 3;
 const GO_TO_BYTES: usize = 6;
 
-/// Splits a stream by the length that belongs to each command's letter.
+/// Reader that splits a stream by the length of each command's letter.
 ///
-/// Bytes that form no command are skipped up to the next bar. Whether a real unit reads a
-/// stream or segments is unknown.
+/// It skips bytes that form no command up to the next bar. Nobody knows if a real unit reads a
+/// stream or segments.
 #[derive(Debug, Default)]
 pub struct CommandReader {
     pending: Vec<u8>,
 }
 
 impl CommandReader {
-    /// Commands that are complete with `segment`.
+    /// Returns the commands that `segment` completes.
     pub(super) fn read(&mut self, segment: &[u8], quirks: &BTreeSet<Quirk>) -> Vec<Vec<u8>> {
         if quirks.contains(&Quirk::Segment) {
             return alone(segment);
@@ -56,16 +56,16 @@ impl CommandReader {
     }
 }
 
-/// Commands of a single segment, each up to the next bar. The number of a go-to may be
+/// Returns the commands of a single segment, each up to the next bar. The number of a go-to may be
 /// short; bytes after a command are ignored.
 fn alone(segment: &[u8]) -> Vec<Vec<u8>> {
     let mut pieces = segment.split(|byte| *byte == b'|');
-    // There is no command in front of the first bar.
+    // The bytes before the first bar form no command.
     pieces.next();
     pieces.filter(|piece| !piece.is_empty()).map(command).collect()
 }
 
-/// Command from the bytes behind its bar.
+/// Returns a command from the bytes after its bar.
 fn command(piece: &[u8]) -> Vec<u8> {
     let mut command = [b"|", piece].concat();
     let letter = piece.first().copied().unwrap_or_default();
@@ -99,7 +99,7 @@ mod tests {
         let bytes: Vec<String> = sent.chars().map(String::from).collect();
         let bytes: Vec<&str> = bytes.iter().map(String::as_str).collect();
         assert_eq!(read(&bytes, &[]), expected);
-        // A number that is too short swallows the next command.
+        // A short number swallows the next command.
         assert_eq!(read(&["|A15", "|h"], &[]), ["|A15|h"]);
     }
 
@@ -133,7 +133,7 @@ mod tests {
                     prop_assert!(command.len() >= 2 && command[0] == b'|', "{:?}", command);
                     let _ = Request::parse(&command);
                 }
-                // Less than the longest command waits.
+                // The rest is shorter than the longest command.
                 prop_assert!(reader.pending.len() < 22);
             }
         }

@@ -3,7 +3,7 @@
 use super::{Control, Fault, Quirk, command::CommandReader, unit::RotatorGenius};
 use crate::sim::harness::{self, Replies, Wire};
 
-/// Noise with pieces that look like replies.
+/// Noise that contains pieces of replies.
 const NOISE: &[u8] = b"\x00\xff~|A12\r\n|";
 
 type Switches = harness::Switches<Quirk, Fault>;
@@ -43,7 +43,7 @@ impl Wire<RotatorGenius> for CommandReader {
     }
 }
 
-/// `bytes` as text for logs and tests.
+/// Returns `bytes` as Latin-1 text, for logs and tests.
 fn latin_1(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| char::from(*byte)).collect()
 }

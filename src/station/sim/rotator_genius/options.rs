@@ -21,20 +21,20 @@ pub struct Options {
     pub mechanics: Mechanics,
     /// Oddities of the unit.
     pub quirks: BTreeSet<Quirk>,
-    /// Failures.
+    /// Failures of the unit and its line.
     pub faults: BTreeSet<Fault>,
-    /// Delay between a command and its reply, evenly spread.
+    /// Delay between a command and its reply, evenly distributed.
     pub reply_delay: RangeInclusive<Duration>,
-    /// Maximum number of clients; more are closed at once.
+    /// Max number of clients; the unit closes further connections at once.
     pub max_clients: usize,
     /// Seed of all randomness.
     pub seed: u64,
 }
 
-/// A rotator at the start.
+/// Options of a rotator at the start.
 #[derive(Debug, Clone)]
 pub struct RotatorOptions {
-    /// Name; 12 characters of Latin-1 are sent.
+    /// Name; the unit sends 12 Latin-1 characters of it.
     pub name: String,
     pub kind: RotatorKind,
     /// Angle at the start.
@@ -43,20 +43,20 @@ pub struct RotatorOptions {
     pub limit_cw: WholeDegrees,
     /// End of the travel counter-clockwise.
     pub limit_ccw: WholeDegrees,
-    /// Reported "Offset", degrees, -180 to 180. The position includes it already.
+    /// Reported "Offset", degrees, -180 to 180. The position already includes it.
     pub offset_deg: i16,
-    /// Degrees before a target at which the drive is cut off. From full rate the rotator
-    /// coasts 2 degrees.
+    /// Degrees before a target at which the drive switches off. From full rate, the rotator coasts
+    /// 2 degrees.
     pub stop_offset_deg: u8,
-    /// Full rate, degrees a second.
+    /// Full rate, degrees per second.
     pub full_rate_deg_s: f64,
-    /// The rotator has a sensor, without which it cannot be moved.
+    /// `true` if the rotator has a sensor; without it, the rotator cannot be moved.
     pub has_sensor: bool,
 }
 
 impl Default for Options {
-    /// Like the recorded units: an azimuth rotator at 173 degrees, and a second one without a
-    /// sensor. One client, replies after 5 to 30 ms.
+    /// Returns options like the recorded units: an azimuth rotator at 173 degrees, and a second one
+    /// without a sensor. One client, replies after 5 to 30 ms.
     fn default() -> Self {
         let name = "Rotator 2".to_owned();
         let second = RotatorOptions { name, has_sensor: false, ..RotatorOptions::default() };
@@ -73,7 +73,8 @@ impl Default for Options {
 }
 
 impl Default for RotatorOptions {
-    /// An azimuth rotator at 173 degrees, with limits at 0 and 359 and 4 degrees a second.
+    /// Returns an azimuth rotator at 173 degrees, with limits at 0 and 359 degrees and 4 degrees
+    /// per second.
     fn default() -> Self {
         Self {
             name: "Tower".to_owned(),
@@ -90,7 +91,7 @@ impl Default for RotatorOptions {
 }
 
 impl RotatorOptions {
-    /// An elevation rotator at the horizon, with limits at 0 and 90 degrees.
+    /// Returns an elevation rotator at the horizon, with limits at 0 and 90 degrees.
     pub fn elevation() -> Self {
         Self {
             name: "Elevation".to_owned(),
@@ -103,12 +104,12 @@ impl RotatorOptions {
 }
 
 impl Control {
-    /// A unit that starts now, without a port: see [`Self::serve`].
+    /// Creates a unit that starts now, without a port: see [`Self::serve`].
     pub fn new(options: &Options) -> Self {
         Self::on_clock(options, Clock::system())
     }
 
-    /// Like [`Self::new`], running by `clock`.
+    /// Creates a unit like [`Self::new`] that runs by `clock`.
     pub fn on_clock(options: &Options, clock: Clock) -> Self {
         let Options { quirks, faults, reply_delay, seed, .. } = options;
         let switches = Switches { quirks: quirks.clone(), faults: faults.clone() };
@@ -117,7 +118,7 @@ impl Control {
 }
 
 impl Simulator {
-    /// Starts a unit and listens; port 0 takes a free one. A real unit has 9006.
+    /// Starts a unit and listens; port 0 selects a free port. A real unit uses 9006.
     pub async fn bind(address: SocketAddr, options: Options) -> io::Result<Self> {
         Self::listen(address, Control::new(&options), options.max_clients).await
     }
@@ -135,7 +136,7 @@ mod tests {
         Acknowledgement, Decoder, Motion, Received, Reply, Request, RotatorNumber, Status,
     };
 
-    /// Reply to a request, or `None` if the connection is closed instead.
+    /// Returns the reply to a request; `None` if the unit closes the connection instead.
     async fn ask(stream: &mut TcpStream, request: Request) -> Option<Reply> {
         stream.write_all(&request.to_bytes()).await.ok()?;
         let mut decoder = Decoder::new();

@@ -1,12 +1,12 @@
-//! Oddities of units, and failures, that can be switched on.
+//! Switchable oddities of units, and failures.
 
 use crate::protocol::rotator_genius::RotatorNumber;
 use crate::sim::names::named;
 
-/// A way in which a unit may deviate from the recorded ones, or the document from itself.
+/// Deviation of a unit from the recorded units, or of the document from itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Quirk {
-    /// A status of 64 bytes with leading zeros, as in the document's example.
+    /// The status has 64 bytes with leading zeros, as in the document's example.
     Narrow,
     /// The limit byte is `0` or `1`, as the document says. Recorded units send a zero byte
     /// inside the limits.
@@ -17,12 +17,12 @@ pub enum Quirk {
     Active0,
     /// The reply to a go-to repeats the target, as in the document's list.
     GoToReply6,
-    /// Each segment is read by itself: numbers may be short, and an incomplete command is
-    /// forgotten.
+    /// The unit reads each segment separately: numbers may be short, and an incomplete command is
+    /// dropped.
     Segment,
-    /// A configuration may come without the name, as in the document's example.
+    /// A configuration may lack the name, as in the document's example.
     Config12,
-    /// An unknown command is answered with its letter and `F`.
+    /// The unit answers an unknown command with its letter and `F`.
     UnknownFails,
 }
 
@@ -39,10 +39,10 @@ impl Quirk {
     ];
 }
 
-/// A failure.
+/// Failure of the unit or its line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Fault {
-    /// No reply comes; requests are carried out.
+    /// No reply comes, but the unit carries out requests.
     Silence,
     /// Every third reply is lost; its request was carried out.
     DropReply,
@@ -52,21 +52,21 @@ pub enum Fault {
     Garbage,
     /// Replies come in pieces.
     Split,
-    /// Replies are gathered and come together.
+    /// Replies are collected and sent together.
     Merge,
-    /// Every command is refused except reading and stopping.
+    /// The unit refuses every command except queries and stop.
     Refuse,
-    /// "Panic" is 0x07. The codes are not documented.
+    /// "Panic" is 0x07. The document does not list the codes.
     Panic,
-    /// The reported angles stay as they were.
+    /// The reported angles do not change.
     FrozenAngles,
-    /// Both rotators are reported to stand, whatever they do.
+    /// Both rotators are always reported at rest.
     FalseRest,
     /// The sensor of this rotator is not connected.
     NoSensor(RotatorNumber),
-    /// This rotator is driven but does not turn.
+    /// The drive of this rotator runs, but the rotator does not turn.
     Stuck(RotatorNumber),
-    /// The drives of the two rotators are exchanged: each order turns the other rotator.
+    /// The drives of the rotators are swapped: each order turns the other rotator.
     CrossedDrives,
 }
 

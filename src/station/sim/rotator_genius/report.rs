@@ -1,5 +1,4 @@
-//! Replies of the unit, byte for byte as recorded, or in the forms that the quirks ask
-//! for.
+//! Replies of the unit, byte for byte as recorded, or in the form that the quirks request.
 
 use std::collections::BTreeSet;
 
@@ -7,10 +6,10 @@ use super::Quirk;
 use super::rotor::Rotor;
 use crate::protocol::rotator_genius::{Moving, WholeDegrees};
 
-/// Number in place of an angle that does not exist.
+/// Placeholder for a missing angle.
 const NONE: u16 = 999;
 
-/// Reply to `|h`.
+/// Returns the reply to `|h`.
 pub(super) fn status(rotors: &[Rotor; 2], panic: u8, quirks: &BTreeSet<Quirk>) -> Vec<u8> {
     let active = if quirks.contains(&Quirk::Active0) { b'0' } else { b'2' };
     let header = [b'|', b'h', active, panic];
@@ -34,7 +33,7 @@ fn rotator(rotor: &Rotor, quirks: &BTreeSet<Quirk>) -> Vec<u8> {
         Moving::CounterClockwise => '2',
     };
     let (front, name_length) = if is_narrow {
-        // For this form the document explains the field as the stop offset.
+        // In this form, the document describes the field as the stop offset.
         let (cw, ccw, offset) = (cw.degrees(), ccw.degrees(), rotor.stop_offset_deg);
         let numbers = format!("{position:03}{cw:03}{ccw:03}{kind}{moving}{offset:02}");
         (format!("{numbers}{target:03}{start:03}"), 10)
@@ -58,12 +57,12 @@ fn limit_byte(is_outside: bool, quirks: &BTreeSet<Quirk>) -> u8 {
     }
 }
 
-/// Reply to the command with this letter.
+/// Returns the reply to the command with this letter.
 pub(super) fn acknowledgement(letter: u8, is_accepted: bool) -> Vec<u8> {
     vec![b'|', letter, verdict(is_accepted)]
 }
 
-/// Reply to the go-to `command`, which it may repeat.
+/// Returns the reply to the go-to `command`, which it may repeat.
 pub(super) fn go_to(command: &[u8], is_accepted: bool, quirks: &BTreeSet<Quirk>) -> Vec<u8> {
     match command.get(3..) {
         Some(angle) if quirks.contains(&Quirk::GoToReply6) => {
@@ -125,7 +124,7 @@ mod tests {
         let two = Rotor::perfect(&RotatorOptions { stop_offset_deg: 1, has_sensor: false, ..two });
         one.rotate(Direction::Clockwise);
         let quirks = [Quirk::Narrow, Quirk::Active0, Quirk::LimitAscii].into();
-        // The example says "inside", but by its own limits 100 degrees are outside.
+        // The document's example says "inside", but 100 degrees are outside its own limits.
         let expected = b"|h0\x00100005350A1009999991TOW1      999010060E0019999990          ";
         assert_eq!(status(&[one, two], 0, &quirks), expected);
     }

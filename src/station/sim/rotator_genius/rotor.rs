@@ -7,7 +7,7 @@ use crate::protocol::rotator_genius::{
 };
 use crate::sim::mechanics::{CommandDelay, Gear, Mechanics, MinimumRun, Sensor};
 
-/// Way that the rotator coasts from its full rate, degrees: the default stop offset.
+/// Distance that the rotator coasts from full rate, degrees; also the default stop offset.
 const COAST_DEG: f64 = 2.0;
 
 /// Max time between rest and full rate, seconds.
@@ -17,9 +17,9 @@ const MAX_RAMP_S: f64 = 1.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Drive {
     Off,
-    /// Turn until told otherwise.
+    /// Turn without a target, until the next command.
     Free(Direction),
-    /// Turn to a target, from the angle at which it set out.
+    /// Turn to a target from the start angle.
     To {
         target: WholeDegrees,
         start: WholeDegrees,
@@ -27,27 +27,27 @@ enum Drive {
     },
 }
 
-/// One rotator of the device.
+/// Rotator of the unit.
 #[derive(Debug, Clone)]
 pub(super) struct Rotor {
     pub(super) name: String,
     pub(super) kind: RotatorKind,
     pub(super) limit_cw: WholeDegrees,
     pub(super) limit_ccw: WholeDegrees,
-    /// Declination and the like, which the sensor's angle includes already.
+    /// Reported offset such as declination, degrees; the sensor's angle already includes it.
     pub(super) offset_deg: i16,
     pub(super) stop_offset_deg: u8,
     has_sensor: bool,
     is_sensor_broken: bool,
     is_stuck: bool,
-    /// Reading of a frozen sensor.
+    /// Reading of a frozen sensor, if frozen.
     frozen: Option<WholeDegrees>,
     rests_falsely: bool,
     travel: Travel,
     full_rate_deg_s: f64,
     /// Remaining share of the full rate, 0 to 1.
     strength: f64,
-    /// Position on the travel; beyond its ends when outside the limits.
+    /// Position on the travel, degrees; beyond its ends if outside the limits.
     place_deg: f64,
     rate_deg_s: f64,
     drive: Drive,
@@ -90,22 +90,22 @@ impl Rotor {
         }
     }
 
-    /// True angle, 0 to 360 degrees.
+    /// Returns the true angle, 0 to 360 degrees.
     pub(super) fn angle_deg(&self) -> f64 {
         self.travel.angle_deg(self.place_deg)
     }
 
-    /// Reading of the sensor.
+    /// Returns the reading of the sensor; `None` without a working sensor.
     pub(super) fn measured(&self) -> Option<WholeDegrees> {
         self.can_measure().then(|| self.frozen.unwrap_or_else(|| self.sensed()))
     }
 
-    /// By the sensor; `false` without one.
+    /// Returns `true` if the sensor reads outside the limits; `false` without a sensor.
     pub(super) fn is_outside_limits(&self) -> bool {
         self.can_measure() && !self.travel.contains(self.place_deg)
     }
 
-    /// Direction of the drive; a stopped rotator may still coast.
+    /// Returns the direction of the drive; a stopped rotator may still coast.
     pub(super) fn moving(&self) -> Moving {
         match self.drive {
             Drive::Off => Moving::Stopped,
@@ -115,7 +115,7 @@ impl Rotor {
         }
     }
 
-    /// Target, and angle at which it set out.
+    /// Returns the target and the start angle of a go-to.
     pub(super) fn journey(&self) -> Option<(WholeDegrees, WholeDegrees)> {
         match self.drive {
             Drive::To { target, start, .. } => Some((target, start)),
@@ -123,7 +123,7 @@ impl Rotor {
         }
     }
 
-    /// Returns `true` if the status says that the rotator stands although it may turn.
+    /// Returns `true` if the status reports rest although the rotator may turn.
     pub(super) fn rests_falsely(&self) -> bool {
         self.rests_falsely
     }
@@ -149,7 +149,7 @@ impl Rotor {
         self.dead_time.command(self.moving());
     }
 
-    /// The motor stops, and the axis coasts.
+    /// Stops the motor, and lets the axis coast.
     pub(super) fn lose_power(&mut self) {
         self.drive = Drive::Off;
         self.cut_power();
@@ -160,7 +160,8 @@ impl Rotor {
         self.powered = Moving::Stopped;
     }
 
-    /// Returns `false`, and does nothing, without a sensor or beyond the limits.
+    /// Starts a turn to `target`. Returns `false`, without effect, if there is no sensor or
+    /// `target` is beyond the limits.
     pub(super) fn go_to(&mut self, target: WholeDegrees) -> bool {
         let target_place = self.travel.place(degrees(target));
         if !self.can_measure() || !self.travel.contains(target_place) {
@@ -172,8 +173,8 @@ impl Rotor {
         true
     }
 
-    /// Inside the limits the rotator goes to the limit, outside them it just turns. Returns
-    /// `false`, and does nothing, without a sensor.
+    /// Turns to the limit, or without a target from outside the limits. Returns `false`, without
+    /// effect, if there is no sensor.
     pub(super) fn rotate(&mut self, direction: Direction) -> bool {
         if !self.can_measure() {
             return false;
@@ -195,7 +196,7 @@ impl Rotor {
         self.switch(Drive::To { target, start: self.angle(), direction });
     }
 
-    /// Adopts all of a configuration but the name, and stops the drive.
+    /// Adopts a configuration without its name, and stops the drive.
     pub(super) fn configure(&mut self, configuration: &Configuration) {
         let angle_deg = self.angle_deg();
         self.limit_cw = configuration.limit_cw();
@@ -207,7 +208,7 @@ impl Rotor {
         self.stop();
     }
 
-    /// Sets the faults. The drive of a rotator that loses its sensor stops.
+    /// Sets the faults. Stops the drive of a rotator that loses its sensor.
     pub(super) fn set_faults(&mut self, is_sensor_broken: bool, is_stuck: bool) {
         self.is_sensor_broken = is_sensor_broken;
         self.is_stuck = is_stuck;
@@ -220,7 +221,7 @@ impl Rotor {
         self.strength = strength;
     }
 
-    /// Sets the errors of the status.
+    /// Sets the errors in the status.
     pub(super) fn set_lies(&mut self, is_frozen: bool, rests_falsely: bool) {
         let angle = self.frozen.unwrap_or_else(|| self.sensed());
         self.frozen = is_frozen.then_some(angle);
@@ -255,7 +256,7 @@ impl Rotor {
         self.sensor.advance(step_s);
     }
 
-    /// Returns `true` if the target is within the stop offset, or passed.
+    /// Returns `true` if the rotator has reached the stop offset before its target.
     fn has_arrived(&self) -> bool {
         let Drive::To { target, direction, .. } = self.drive else { return false };
         let distance = self.travel.place(degrees(target)) - self.place_deg;
@@ -276,7 +277,7 @@ impl Rotor {
 
     fn sensed(&self) -> WholeDegrees {
         let sensed_deg = self.angle_deg() + self.sensor.error_deg();
-        // An elevation below the horizon is reported as 0.
+        // The unit reports an elevation below the horizon as 0.
         let sensed_deg = match self.kind {
             RotatorKind::Elevation => sensed_deg.max(0.0),
             RotatorKind::Azimuth => sensed_deg.rem_euclid(360.0),

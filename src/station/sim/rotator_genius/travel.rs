@@ -1,10 +1,10 @@
 //! Travel between the limits of a rotator.
 
-/// Travel of a rotator: clockwise from its counter-clockwise limit to its clockwise one.
-/// This is the natural meaning, and recorded units fit it.
+/// Travel of a rotator, clockwise from its counter-clockwise to its clockwise limit. This is the
+/// natural meaning, and recorded units fit it.
 ///
-/// A place on the travel is in degrees clockwise from the counter-clockwise limit. Equal
-/// limits leave a whole turn.
+/// A place on the travel is in degrees clockwise from the counter-clockwise limit. Equal limits
+/// mean a whole turn.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Travel {
     ccw_deg: f64,
@@ -17,14 +17,14 @@ impl Travel {
         Self { ccw_deg, span_deg: if span > 0.0 { span } else { span + 360.0 } }
     }
 
-    /// Place of an azimuth or elevation, 0 to 360 degrees.
+    /// Returns the place of an azimuth or elevation, 0 to 360 degrees.
     pub(super) fn place(&self, angle_deg: f64) -> f64 {
         let clockwise = angle_deg - self.ccw_deg;
         self.nearest(if clockwise < 0.0 { clockwise + 360.0 } else { clockwise })
     }
 
-    /// Place with the direction of `place`: on the travel, or as near to one of its ends as
-    /// possible.
+    /// Returns the place with the direction of `place` that is on the travel or nearest to one of
+    /// its ends.
     pub(super) fn nearest(&self, place: f64) -> f64 {
         let max = self.span_deg + (360.0 - self.span_deg) / 2.0;
         if (max - 360.0..=max).contains(&place) {
@@ -34,13 +34,13 @@ impl Travel {
         if clockwise > max { clockwise - 360.0 } else { clockwise }
     }
 
-    /// Azimuth or elevation at a place, 0 to 360 degrees.
+    /// Returns the azimuth or elevation at a place, 0 to 360 degrees.
     pub(super) fn angle_deg(&self, place: f64) -> f64 {
         let angle = self.ccw_deg + place;
         if (0.0..=360.0).contains(&angle) { angle } else { angle.rem_euclid(360.0) }
     }
 
-    /// Returns `true` if a place is on the travel, to the whole degree that a status can express.
+    /// Returns `true` if a place is on the travel, in the whole degrees of a status.
     pub(super) fn contains(&self, place: f64) -> bool {
         (0.0..=self.span_deg).contains(&self.nearest(place).round())
     }
@@ -80,7 +80,7 @@ mod tests {
                 assert!(turned.rem_euclid(360.0) < 1e-9, "{cw} {ccw} {angle} {turned}");
             }
         }
-        // On a mount with its stop in the north both are ends.
+        // On a mount with its stop in the north, both angles are ends.
         let travel = Travel::new(360.0, 0.0);
         assert!(travel.place(360.0) - travel.place(0.0) > 359.0);
         assert!((travel.angle_deg(travel.place(360.0)) - 360.0).abs() < 1e-9);

@@ -1,5 +1,5 @@
-//! The simulated unit: its memory and activity. It has no I/O and no clock: the time since
-//! its start is an argument.
+//! Simulated unit: its memory and activity. It has no I/O and no clock: the caller passes the time
+//! since the start.
 
 use std::collections::BTreeSet;
 use std::time::Duration;
@@ -14,7 +14,7 @@ use crate::sim::harness::{self, Switches};
 
 /// Time between two steps of the rotators.
 const STEP: Duration = Duration::from_millis(50);
-/// Longest absence that is caught up with; a longer one is skipped.
+/// Max elapsed time that the unit simulates; it skips a longer rest.
 const LONGEST_CATCH_UP: Duration = Duration::from_mins(10);
 /// Code that [`Fault::Panic`] reports.
 const PANIC_CODE: u8 = 0x07;
@@ -31,16 +31,16 @@ impl Snapshot {
     }
 }
 
-/// True state of one rotator, whatever its sensor says.
+/// True state of a rotator, independent of its sensor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RotatorState {
     /// Angle, degrees, 0 to 360.
     pub angle_deg: f64,
     /// Direction of the drive.
     pub moving: Moving,
-    /// The rotator turns; without its drive it may still coast.
+    /// `true` if the rotator turns; without its drive it may still coast.
     pub is_turning: bool,
-    /// The sensor reads outside the limits.
+    /// `true` if the sensor reads outside the limits.
     pub is_outside_limits: bool,
     pub target: Option<WholeDegrees>,
 }
@@ -51,7 +51,7 @@ pub struct RotatorGenius {
     rotors: [Rotor; 2],
     panic: u8,
     refuses: bool,
-    /// Each order turns the other rotator.
+    /// `true` if each order turns the other rotator.
     is_crossed: bool,
     /// Time since the start of the unit, in whole steps.
     elapsed: Duration,
@@ -72,7 +72,7 @@ impl RotatorGenius {
         }
     }
 
-    /// Carries a command out and returns the reply, if there is one. Call `advance` first.
+    /// Carries out a command and returns the reply, if any. Must be called after `advance`.
     pub(super) fn answer(&mut self, command: &[u8], quirks: &BTreeSet<Quirk>) -> Option<Vec<u8>> {
         let letter = *command.get(1)?;
         let is_short = letter == b'c' && command.len() == SHORT_CONFIGURATION_BYTES;
@@ -128,7 +128,7 @@ impl RotatorGenius {
 impl harness::Unit for RotatorGenius {
     type Quirk = Quirk;
     type Fault = Fault;
-    /// Latin-1 text.
+    /// Command as Latin-1 text.
     type Request = String;
     type Snapshot = Snapshot;
     type Place = [WholeDegrees; 2];
@@ -142,7 +142,7 @@ impl harness::Unit for RotatorGenius {
 
     fn advance(&mut self, elapsed: Duration) {
         self.elapsed = self.elapsed.max(elapsed.saturating_sub(LONGEST_CATCH_UP));
-        // Only whole steps, so that more frequent requests change nothing.
+        // Use whole steps only, so that frequent requests change nothing.
         while self.elapsed + STEP <= elapsed {
             self.elapsed += STEP;
             for rotor in &mut self.rotors {
@@ -225,7 +225,7 @@ mod tests {
             ("|A1200", Some("|AK")),
             ("|A1361", Some("|AF")),
             ("|A3090", Some("|AF")),
-            // Its sensor is not connected.
+            // The sensor of rotator 2 is not connected.
             ("|A2090", Some("|AF")),
             ("|P2", Some("|PF")),
             ("|M1", Some("|MK")),

@@ -1,4 +1,4 @@
-//! Answers before they are encoded, so that quirks can change their form.
+//! Unencoded answers, whose form quirks can change.
 
 use std::collections::BTreeSet;
 
@@ -8,23 +8,23 @@ use jiff::tz::TimeZone;
 use super::Quirk;
 use crate::protocol::satrak::{RequestError, Verb, Word};
 
-/// Codes in refusals. The document announces codes and lists none, so these are the
+/// Codes in refusals. The document announces codes but lists none, so these codes are the
 /// simulator's own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ErrorCode {
-    /// The word is unknown, or not used with this sign.
+    /// The word is unknown, or not valid with this sign.
     Unknown = 1,
     /// Wrong number of values.
     Count = 2,
-    /// A value cannot be read or makes no sense.
+    /// A value cannot be read or is invalid.
     Value = 3,
-    /// The antenna cannot point there.
+    /// The antenna cannot reach the direction.
     OutOfReach = 4,
-    /// Something that the request needs is missing: GPS lock, satellite, window.
+    /// A precondition of the request is missing: GPS lock, satellite or window.
     NotReady = 5,
-    /// A fault forbids it.
+    /// A fault forbids the request.
     Fault = 6,
-    /// No setting is accepted.
+    /// The unit accepts no setting.
     Refused = 7,
 }
 
@@ -38,12 +38,12 @@ impl From<RequestError> for ErrorCode {
     }
 }
 
-/// One value of an answer.
+/// Value in an answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Value {
-    /// Sent as it is.
+    /// Text that is sent unchanged.
     Text(String),
-    /// Has a decimal point.
+    /// Number with a decimal point.
     Decimal(String),
 }
 
@@ -57,21 +57,21 @@ impl Value {
         Self::text(u8::from(flag))
     }
 
-    /// With a fixed number of decimals.
+    /// Returns a number with a fixed count of decimals.
     pub(super) fn fixed(value: f64, decimals: usize) -> Self {
         let text = format!("{value:.decimals$}");
         let is_minus_zero = text.starts_with('-') && !text.contains(|c| ('1'..='9').contains(&c));
         Self::Decimal(if is_minus_zero { text.replacen('-', "", 1) } else { text })
     }
 
-    /// With one to three decimals, as many as needed.
+    /// Returns a number with one to three decimals, as many as needed.
     pub(super) fn decimal(value: f64) -> Self {
         let (Self::Decimal(text) | Self::Text(text)) = Self::fixed(value, 3);
         let trimmed = text.strip_suffix("00").or(text.strip_suffix('0')).unwrap_or(&text);
         Self::Decimal(trimmed.to_owned())
     }
 
-    /// Hour, minute, second, day, month, year.
+    /// Returns hour, minute, second, day, month and year.
     pub(super) fn time(time: Timestamp) -> Vec<Self> {
         let civil = TimeZone::UTC.to_datetime(time);
         [civil.hour(), civil.minute(), civil.second(), civil.day(), civil.month()]
@@ -92,7 +92,7 @@ pub(super) struct Answer {
 }
 
 impl Answer {
-    /// Answer to a query.
+    /// Creates the answer to a query.
     pub(super) fn values(word: Word, values: Vec<Value>) -> Self {
         Self { word: format!("{word}{}", Verb::Query.sign()), values }
     }
@@ -106,7 +106,7 @@ impl Answer {
         Self { word: word.to_owned(), values }
     }
 
-    /// Payload in the form that the quirks ask for.
+    /// Returns the payload in the form that the quirks request.
     pub(super) fn payload(&self, quirks: &BTreeSet<Quirk>) -> String {
         let mut values: Vec<String> = self
             .values
@@ -118,7 +118,7 @@ impl Answer {
                 Value::Decimal(text) | Value::Text(text) => text.clone(),
             })
             .collect();
-        // An error keeps its two values; only full replies lose their last.
+        // Only a full reply loses its last value; an error keeps both values.
         for (quirk, word, count) in [
             (Quirk::Fields15, "STATUS?", 15),
             (Quirk::Err11, "ERRSTATUS?", 11),

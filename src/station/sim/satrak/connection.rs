@@ -8,14 +8,14 @@ use crate::{
     sim::harness::{self, Replies, Wire},
 };
 
-/// A frame of another product, from the document's own example.
+/// Frame of another product, from the document's own example.
 const UNSOLICITED: &str = "DATETIMEG?=,2016,12,22,15,55,40,10";
 const NOISE: &[u8] = b"\x00\xff~garbage\r\n$ST";
 
 type Switches = harness::Switches<Quirk, Fault>;
 
 impl Wire<Satrak> for Decoder {
-    /// Payload.
+    /// Payload of a reply.
     type Reply = String;
 
     fn take(
@@ -33,7 +33,7 @@ impl Wire<Satrak> for Decoder {
                     let payload = answer(&frame, control, switches);
                     replies.push(payload, control.reply_delay());
                 }
-                // Like a real unit: a broken frame gets no answer.
+                // A real unit also ignores a broken frame.
                 Err(error) => tracing::info!(target: "azel::sim", %error, "refused"),
             }
         }
@@ -58,13 +58,13 @@ fn answer(frame: &Frame, control: &Control, switches: &Switches) -> String {
     })
 }
 
-/// Returns `true` if the payload answers a command. Answers to queries have a question mark behind
+/// Returns `true` if the payload answers a command. An answer to a query has a question mark after
 /// the word.
 fn answers_a_command(payload: &str) -> bool {
     payload.trim_start_matches(|sign| !matches!(sign, '?' | '=')).starts_with('=')
 }
 
-/// Bytes to send for reply `number`, counted from 1.
+/// Returns the bytes of reply `number`, counted from 1.
 fn reply_bytes(payload: &str, number: u64, switches: &Switches) -> Vec<u8> {
     let has = |fault| switches.has_fault(fault);
     let is_third = number.is_multiple_of(3);
@@ -75,7 +75,7 @@ fn reply_bytes(payload: &str, number: u64, switches: &Switches) -> Vec<u8> {
     let mut bytes = if has(Fault::Garbage) { NOISE.to_vec() } else { Vec::new() };
     let frame = frame_bytes(payload, &switches.quirks);
     if has(Fault::BadChecksum) && is_third {
-        // Changes the digit before the line end, whatever its case.
+        // Change the digit before the line end, in either case.
         let from_end = if switches.has_quirk(Quirk::LfOnly) { 2 } else { 3 };
         let index = frame.len().saturating_sub(from_end);
         let digit = frame.iter().enumerate();
@@ -92,7 +92,7 @@ fn reply_bytes(payload: &str, number: u64, switches: &Switches) -> Vec<u8> {
 fn frame_bytes(payload: &str, quirks: &BTreeSet<Quirk>) -> Vec<u8> {
     let mut frame = encode(payload);
     if quirks.contains(&Quirk::LowerHex) {
-        // Two digits and the line end.
+        // Start at the two digits before the line end.
         let digits_at = frame.len().saturating_sub(4);
         frame.iter_mut().skip(digits_at).for_each(u8::make_ascii_lowercase);
     }

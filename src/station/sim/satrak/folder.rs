@@ -1,4 +1,4 @@
-//! The unit's folder of element files on disk.
+//! Folder of element files that the unit reads from disk.
 
 use std::{collections::BTreeMap, fs, path::Path};
 
@@ -7,12 +7,12 @@ use crate::{
     protocol::satrak::Frame,
 };
 
-/// Returns `true` if `frame` tells the unit to use a file.
+/// Returns `true` if `frame` makes the unit use a file.
 pub(super) fn is_about_a_file(frame: &Frame) -> bool {
     frame.line().trim_start_matches('$').starts_with("SATELLITE=")
 }
 
-/// Reads the files in `folder` by name. Unreadable files do not exist for the unit.
+/// Reads the files in `folder` by name. Skips unreadable files.
 pub(super) fn read(folder: &Path) -> BTreeMap<String, Vec<Elements>> {
     let Ok(entries) = fs::read_dir(folder) else { return BTreeMap::new() };
     let file = |entry: fs::DirEntry| {

@@ -9,7 +9,7 @@ use crate::sim::Mechanics;
 
 use self::axis::{Axis, ZENITH_DEG};
 
-/// Both axes, and the mount's orientation.
+/// X/Y mount with both axes.
 #[derive(Debug, Clone)]
 pub(super) struct Mount {
     pub(super) x: Axis,
@@ -17,8 +17,8 @@ pub(super) struct Mount {
 }
 
 impl Mount {
-    /// A mount parked at the zenith, with these ends of the travel, full rate and imperfections of
-    /// both axes.
+    /// Creates a mount parked at the zenith, with this travel and full rate and these imperfections
+    /// for both axes.
     pub(super) fn new(
         ends_deg: [f64; 2],
         full_rate_deg_s: f64,
@@ -30,7 +30,7 @@ impl Mount {
         Self { x: axis(0), y: axis(1) }
     }
 
-    /// Puts both axes there at once.
+    /// Moves both axes to these angles at once, degrees.
     pub(super) fn place(&mut self, [x_deg, y_deg]: [f64; 2]) {
         self.x.place(x_deg);
         self.y.place(y_deg);
@@ -45,8 +45,8 @@ impl Mount {
         self.x.motion().is_moving() || self.y.motion().is_moving()
     }
 
-    /// Sends both axes to mechanical angles in degrees, without a path between them. Returns
-    /// `false`, and does nothing, if one angle is beyond its travel.
+    /// Sends each axis to its mechanical angle, degrees, without a common path. Returns `false`,
+    /// without effect, if an angle is beyond its travel.
     pub(super) fn go_to(&mut self, [x_deg, y_deg]: [f64; 2]) -> bool {
         let reachable = self.x.reaches(x_deg) && self.y.reaches(y_deg);
         if reachable {
@@ -56,7 +56,7 @@ impl Mount {
         reachable
     }
 
-    /// Keeps both axes on a moving target, given by its position in `step_s`.
+    /// Keeps both axes on a moving target, given by its position after `step_s` seconds.
     pub(super) fn follow(&mut self, [x_deg, y_deg]: [f64; 2], step_s: f64) {
         self.x.follow(x_deg, step_s);
         self.y.follow(y_deg, step_s);
@@ -67,7 +67,7 @@ impl Mount {
         self.y.advance(step_s);
     }
 
-    /// Readings of the sensors minus the angles, degrees.
+    /// Returns the sensor readings minus the true angles, degrees.
     pub(super) fn errors_deg(&self) -> [f64; 2] {
         [self.x.error_deg(), self.y.error_deg()]
     }
@@ -88,13 +88,13 @@ impl Mount {
     }
 }
 
-/// X and Y angles in degrees that point at `direction`.
+/// Returns the X and Y angles that point at `direction`, degrees.
 pub(super) fn xy_from_azel(direction: AzEl, lower_axis: Angle) -> [f64; 2] {
     let axes = axes_from_azel(direction, lower_axis);
     [ZENITH_DEG + axes.lower.degrees(), ZENITH_DEG + axes.upper.degrees()]
 }
 
-/// Direction of X and Y angles in degrees.
+/// Returns the direction of X and Y angles in degrees.
 pub(super) fn azel_from_xy([x_deg, y_deg]: [f64; 2], lower_axis: Angle) -> AzEl {
     let axes = AxisAngles {
         lower: Angle::from_degrees(x_deg - ZENITH_DEG),
@@ -265,7 +265,7 @@ mod tests {
 
         let mut mount = imperfect(Mechanics { backlash_deg: 1.0, ..Mechanics::default() });
         assert!(mount.go_to([90.2, 90.0]));
-        // Half a degree of play first.
+        // The drive first crosses half a degree of play.
         assert!(run(&mut mount, 0.4).iter().all(|deg| (deg - 90.0).abs() < 1e-9));
         run(&mut mount, 5.0);
         assert!((mount.x.angle_deg() - 90.2).abs() < 1e-9 && !mount.is_moving());

@@ -17,7 +17,7 @@ use crate::{
     clock::Clock,
 };
 
-/// Usual age beyond which elements count as out of date. The document names none.
+/// Default max age of current elements. The document names none.
 const OUTDATED_AFTER: SignedDuration = SignedDuration::from_hours(30 * 24);
 
 /// Options of a simulated unit.
@@ -29,41 +29,42 @@ pub struct Options {
     pub utc_origin: Timestamp,
     /// Element files in the unit, by name.
     pub elements: BTreeMap<String, Vec<Elements>>,
-    /// A folder on disk whose files the unit has too, read anew whenever the unit is told to
-    /// use one, as a real unit does.
+    /// Folder on disk with more element files. The unit reads it again for each command to use a
+    /// file, like a real unit.
     pub element_folder: Option<PathBuf>,
-    /// Age beyond which elements count as out of date.
+    /// Max age of current elements.
     pub outdated_after: SignedDuration,
     /// Oddities of the firmware.
     pub quirks: BTreeSet<Quirk>,
-    /// Failures.
+    /// Failures of the unit and its line.
     pub faults: BTreeSet<Fault>,
-    /// Delay between a request and its reply, evenly spread.
+    /// Delay between a request and its reply, evenly distributed.
     pub reply_delay: RangeInclusive<Duration>,
-    /// Maximum number of clients; more are closed at once.
+    /// Max number of clients; the unit closes further connections at once.
     pub max_clients: usize,
     /// Azimuth of the lower axis.
     pub lower_axis: Angle,
-    /// Both ends of the travel of both axes, degrees as the unit counts.
+    /// Both ends of the travel of each axis, degrees in the unit's count.
     pub ends_deg: [f64; 2],
-    /// Full rate of both axes, degrees a second.
+    /// Full rate of both axes, degrees per second.
     pub full_rate_deg_s: f64,
     /// Imperfections of both axes.
     pub mechanics: Mechanics,
-    /// Lowest elevation that the unit is set to, degrees.
+    /// Min elevation in the unit's settings, degrees.
     pub minimum_elevation_deg: f64,
     /// Time from the start until GPS is locked.
     pub gps_lock_after: Duration,
-    /// The clock starts in 2000 instead of showing the right time.
+    /// `true` if the clock starts in the year 2000 instead of at the right time.
     pub clock_is_unset: bool,
     /// Seed of all randomness.
     pub seed: u64,
 }
 
 impl Options {
-    /// A well-behaved unit at `site` that starts at `utc_origin`: one client, replies after 5
-    /// to 30 ms, lower axis to the north, travel from 5 to 175 degrees at 5 degrees a second, GPS
-    /// locked after 8 s, no elements, which count as out of date after 30 days.
+    /// Returns options of a unit without faults at `site` that starts at `utc_origin`: one client,
+    /// replies after 5 to 30 ms, lower axis to the north. The travel is 5 to 175 degrees at 5
+    /// degrees per second. GPS locks after 8 s. There are no elements; elements become out of date
+    /// after 30 days.
     pub fn new(site: Site, utc_origin: Timestamp) -> Self {
         Self {
             site,
@@ -88,12 +89,12 @@ impl Options {
 }
 
 impl Control {
-    /// A unit that starts now, without a port: see [`Self::serve`].
+    /// Creates a unit that starts now, without a port: see [`Self::serve`].
     pub fn new(options: &Options) -> Self {
         Self::on_clock(options, Clock::system())
     }
 
-    /// Like [`Self::new`], running by `clock`.
+    /// Creates a unit like [`Self::new`] that runs by `clock`.
     pub fn on_clock(options: &Options, clock: Clock) -> Self {
         let Options { quirks, faults, reply_delay, seed, .. } = options;
         let switches = Switches { quirks: quirks.clone(), faults: faults.clone() };
@@ -102,7 +103,7 @@ impl Control {
 }
 
 impl Simulator {
-    /// Starts a unit and listens; port 0 takes a free one. A real unit has 4001.
+    /// Starts a unit and listens; port 0 selects a free port. A real unit uses 4001.
     pub async fn bind(address: SocketAddr, options: Options) -> io::Result<Self> {
         Self::listen(address, Control::new(&options), options.max_clients).await
     }

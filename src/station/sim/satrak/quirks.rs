@@ -1,28 +1,28 @@
-//! Oddities of firmware, and failures, that can be switched on.
+//! Switchable oddities of firmware, and failures.
 
 use crate::protocol::satrak::FaultKind;
 use crate::sim::names::named;
 
-/// A way in which firmware may deviate from the document, or the document from itself.
+/// Deviation of firmware from the document, or of the document from itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Quirk {
-    /// `STATUS?0,..` without a comma after the sign, as in the document's example.
+    /// The form `STATUS?0,..` has no comma after the sign, as in the document's example.
     NoComma,
-    /// Status without the auto track field, as from older firmware.
+    /// The status has no auto-track field, as in older firmware.
     Fields15,
-    /// Faults without the GPS field, as in the document's example.
+    /// The faults have no GPS field, as in the document's example.
     Err11,
-    /// Clock without milliseconds, as in the document's example.
+    /// The clock has no milliseconds, as in the document's example.
     Time6,
-    /// Checksums in lower case.
+    /// Checksums are in lower case.
     LowerHex,
     /// Lines end with LF alone.
     LfOnly,
-    /// A blank between word and `=`, as in the document's examples.
+    /// A blank stands between word and `=`, as in the document's examples.
     SpaceBeforeEq,
-    /// Decimal commas, as a Turkish locale prints them.
+    /// Numbers have decimal commas, as in a Turkish locale.
     DecimalComma,
-    /// Auto-track starts again in a window in which tracking was switched off.
+    /// Auto-track restarts in a window in which tracking was switched off.
     AutoTrackRestarts,
 }
 
@@ -40,7 +40,7 @@ impl Quirk {
     ];
 }
 
-/// A failure.
+/// Failure of the unit or its line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Fault {
     /// An unsolicited frame follows each reply.
@@ -51,22 +51,22 @@ pub enum Fault {
     Garbage,
     /// Replies come in pieces.
     Split,
-    /// Replies are gathered and come together.
+    /// Replies are collected and sent together.
     Merge,
-    /// No reply comes; requests are carried out.
+    /// No reply comes, but the unit carries out requests.
     Silence,
     /// Every third reply has a wrong checksum.
     BadChecksum,
-    /// Every setting is refused.
+    /// The unit refuses every setting.
     RefuseSettings,
     /// A change of the general settings takes effect late: its azimuth offset after 5 s, the rest
-    /// after 40 s. What is late when this fault ends is lost.
+    /// after 40 s. Changes that are pending when this fault ends are lost.
     LateSettings,
-    /// A command ends the connection instead of being answered; it was carried out.
+    /// The unit carries out a command but closes the connection instead of answering.
     HangUp,
-    /// The reported angles stay as they were.
+    /// The reported angles do not change.
     FrozenAngles,
-    /// Both axes are reported to stand, whatever they do.
+    /// Both axes are always reported at rest.
     FalseRest,
     /// The unit has and reports this fault.
     Unit(FaultKind),

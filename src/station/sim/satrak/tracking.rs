@@ -1,5 +1,5 @@
-//! Tracking in a window of time. Its states are 0 outside the window, 3 on the way to the
-//! start point, 1 in the window, 2 over.
+//! Tracking in a window of time. Its states are 0 outside the window, 3 on the way to the start
+//! point, 1 in the window and 2 when over.
 
 use std::time::Duration;
 
@@ -9,7 +9,7 @@ use crate::astro::{Angle, AzEl, Site};
 use crate::orbit::{Elements, PropagationError, Propagator};
 use crate::protocol::satrak::{Settings, TrackState, TrackWindow};
 
-/// After a stop the unit stands for this long before its next tracking step.
+/// Pause from a stop to the next tracking step.
 const RESUME_AFTER: Duration = Duration::from_secs(1);
 
 /// Satellite to track.
@@ -29,7 +29,7 @@ impl Target {
         })
     }
 
-    /// Geometric: the document of the unit knows no refraction.
+    /// Returns the geometric direction: the unit's document does not mention refraction.
     pub(super) fn direction(&self, site: Site, time: Timestamp) -> Result<AzEl, PropagationError> {
         Ok(self.propagator.look_from(site.airless(), time)?.direction)
     }
@@ -43,13 +43,14 @@ pub(super) struct Tracking {
     pub(super) window: Option<TrackWindow>,
     pub(super) is_enabled: bool,
     pub(super) is_auto: bool,
-    /// Auto track leaves no window alone.
+    /// `true` if auto-track restarts in a window in which tracking was switched off.
     pub(super) restarts: bool,
-    /// The window ended while tracking.
+    /// `true` if the window ended during tracking.
     is_completed: bool,
-    /// The operator ended tracking in this window: auto track leaves it alone.
+    /// `true` if a client ended tracking in this window; auto-track then does not start again in
+    /// it.
     is_declined: bool,
-    /// Time since the start of the unit.
+    /// End of a pause in tracking, as a time since the start of the unit.
     held_until: Duration,
 }
 
@@ -60,7 +61,7 @@ impl Tracking {
         self.is_declined = false;
     }
 
-    /// Returns `true` if there is something to track, now or later.
+    /// Returns `true` if the unit has a target to track, now or later.
     pub(super) fn is_ready(&self, rtc: Timestamp) -> bool {
         self.target.is_some() && self.window.is_some_and(|window| rtc < window.stop())
     }
@@ -72,12 +73,12 @@ impl Tracking {
         self.held_until = Duration::ZERO;
     }
 
-    /// Ends tracking. Auto track leaves the rest of a running window alone.
+    /// Ends tracking. Auto-track does not restart in the rest of a running window.
     pub(super) fn disable(&mut self) {
         self.is_declined |= std::mem::take(&mut self.is_enabled);
     }
 
-    /// Forgets satellite and window, and ends.
+    /// Ends tracking and removes satellite and window.
     pub(super) fn forget(&mut self) {
         *self = Self { restarts: self.restarts, ..Self::default() };
     }
@@ -87,12 +88,12 @@ impl Tracking {
         self.is_declined = false;
     }
 
-    /// Yields to other motion for a moment; then tracking takes over again.
+    /// Pauses tracking for a moment in favour of other motion.
     pub(super) fn hold(&mut self, elapsed: Duration) {
         self.held_until = elapsed.saturating_add(RESUME_AFTER);
     }
 
-    /// Starts and ends tracking by the clock of the unit. Returns `true` when it has ended.
+    /// Starts and ends tracking by the unit's clock. Returns `true` when tracking ends.
     pub(super) fn update(&mut self, rtc: Timestamp, lead_ms: i64) -> bool {
         let Some(window) = self.window else { return false };
         if rtc >= window.stop() {
@@ -119,7 +120,7 @@ impl Tracking {
         }
     }
 
-    /// Demanded direction; `None` while tracking leaves the antenna alone.
+    /// Returns the demanded direction; `None` while tracking does not drive the antenna.
     pub(super) fn aim(
         &self,
         site: Site,
@@ -137,10 +138,10 @@ impl Tracking {
         Some(target.direction(site, time).map(|direction| with_offsets(direction, settings)))
     }
 
-    /// Highest elevation in the window, degrees.
+    /// Returns the highest elevation in the window, degrees.
     pub(super) fn highest_deg(&self, site: Site) -> Option<f64> {
         const SAMPLE_S: i64 = 10;
-        /// A day of samples.
+        /// Number of samples in a day.
         const MAX_SAMPLES: usize = 8640;
         let (target, window) = (self.target.as_ref()?, self.window?);
         (window.start().as_second()..=window.stop().as_second())
@@ -153,8 +154,8 @@ impl Tracking {
     }
 }
 
-/// The document names the offsets and says no more: they are read as added to what is computed, at
-/// once and not only from the next window on, and the minimum elevation holds after them.
+/// Adds the offsets to the computed direction. The document only names the offsets: the simulator
+/// applies them at once, not from the next window on, and limits the result to the min elevation.
 fn with_offsets(direction: AzEl, settings: &Settings) -> AzEl {
     let elevation = direction.elevation_deg() + settings.el_offset_deg;
     AzEl {
@@ -167,7 +168,7 @@ fn lead_start(window: TrackWindow, lead_ms: i64) -> Timestamp {
     shifted(window.start(), lead_ms.saturating_neg())
 }
 
-/// `time` moved by milliseconds; unchanged at the end of the calendar.
+/// Returns `time` moved by milliseconds; unchanged at the end of the calendar.
 pub(super) fn shifted(time: Timestamp, by_ms: i64) -> Timestamp {
     time.checked_add(SignedDuration::from_millis(by_ms)).unwrap_or(time)
 }

@@ -1,5 +1,5 @@
-//! The simulated unit: its memory and activity. It has no I/O and no clock: the time since
-//! its start is an argument.
+//! Simulated unit: its memory and activity. It has no I/O and no clock: the caller passes the time
+//! since the start.
 
 mod commands;
 mod memory;
@@ -23,33 +23,33 @@ use crate::sim::prng::Prng;
 
 /// Time between two steps of mount and tracking.
 const STEP: Duration = Duration::from_millis(50);
-/// Longest absence that is caught up with; a longer one is skipped.
+/// Max elapsed time that the unit simulates; it skips a longer rest.
 const LONGEST_CATCH_UP: Duration = Duration::from_mins(10);
 
-/// How late [`Fault::LateSettings`] makes the azimuth offset, and all other settings.
+/// Delays of [`Fault::LateSettings`] for the azimuth offset, and for all other settings.
 const AZIMUTH_LATE: Duration = Duration::from_secs(5);
 const REST_LATE: Duration = Duration::from_secs(40);
 
-/// Beliefs and activity of the unit, for tests and displays.
+/// State of the unit as reported and in truth, for tests and displays.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Snapshot {
     /// X angle as reported, degrees.
     pub x_deg: f64,
     /// Y angle as reported, degrees.
     pub y_deg: f64,
-    /// True angles of both axes, whatever is reported, degrees.
+    /// True angles of both axes, reported or not, degrees.
     pub metal_deg: [f64; 2],
     /// Azimuth, degrees, 0 to 360.
     pub az_deg: f64,
     /// Elevation, degrees.
     pub el_deg: f64,
     pub is_tracking: bool,
-    /// It starts to track on its own.
+    /// `true` if the unit starts tracking on its own.
     pub is_auto: bool,
     pub is_moving: bool,
 }
 
-/// State of one simulated unit.
+/// State of a simulated unit.
 #[derive(Debug)]
 pub struct Satrak {
     site: Site,
@@ -61,13 +61,13 @@ pub struct Satrak {
     gps_lock_after: Duration,
     /// Time since the start of the unit.
     elapsed: Duration,
-    /// The unit's clock minus what GPS tells.
+    /// Clock of the unit minus the time from GPS.
     clock_error: SignedDuration,
-    /// Seconds a day that the unit's clock gains without GPS, and since when it does.
+    /// Seconds a day that the unit's clock gains without GPS, and the start of the drift.
     drift: Option<(f64, Duration)>,
-    /// How far what GPS tells is behind UTC.
+    /// Delay of the time from GPS behind UTC.
     late: Duration,
-    /// How late the drives follow a track.
+    /// Delay of the drives behind a track.
     track_late: Duration,
     misreading: Misreading,
     noise: Prng,
@@ -79,20 +79,20 @@ pub struct Satrak {
     injected: BTreeSet<FaultKind>,
     refuses_settings: bool,
     applies_late: bool,
-    /// Changes that take effect at these times since the start of the unit.
+    /// Pending changes, with their times since the start of the unit.
     late_changes: Vec<(Duration, SettingsChange)>,
     has_frozen_angles: bool,
     rests_falsely: bool,
-    /// Faults that the unit has detected itself.
+    /// Faults that the unit itself has detected.
     found: BTreeSet<FaultKind>,
-    /// Readings that a dead sensor repeats.
+    /// Last readings, which a dead sensor repeats.
     last_xy_deg: [f64; 2],
 }
 
 impl Satrak {
     pub(super) fn new(options: &Options) -> Self {
         let clock_error = if options.clock_is_unset {
-            // 2000-01-01, as in the document's example.
+            // The clock starts at 2000-01-01, as in the document's example.
             Timestamp::from_second(946_684_800)
                 .map_or(SignedDuration::ZERO, |unset| unset.duration_since(options.utc_origin))
         } else {
@@ -137,7 +137,7 @@ impl Satrak {
         unit
     }
 
-    /// Adds `files` to the element files, replacing those of the same name.
+    /// Adds `files` to the element files, and replaces files of the same name.
     pub(super) fn take_files(&mut self, files: BTreeMap<String, Vec<Elements>>) {
         self.elements.extend(files);
     }
@@ -203,21 +203,21 @@ impl Satrak {
         self.utc_origin.checked_add(elapsed).unwrap_or(self.utc_origin)
     }
 
-    /// UTC by the unit's clock.
+    /// Returns UTC by the unit's clock.
     fn rtc(&self) -> Timestamp {
         let utc = self.utc();
         let by_gps = utc.checked_sub(self.late).unwrap_or(utc);
         by_gps.checked_add(self.clock_error + self.drifted()).unwrap_or(by_gps)
     }
 
-    /// Time that the unit's clock has gained since it was set.
+    /// Returns the time that the unit's clock has gained since it was set.
     fn drifted(&self) -> SignedDuration {
         let Some((gains_s_day, elapsed)) = self.drift else { return SignedDuration::ZERO };
         let days = self.elapsed.saturating_sub(elapsed).as_secs_f64() / 86_400.0;
         SignedDuration::try_from_secs_f64(gains_s_day * days).unwrap_or(SignedDuration::ZERO)
     }
 
-    /// Sets the unit's clock so far ahead of what GPS tells.
+    /// Sets the unit's clock ahead of the GPS time by `clock_error`.
     fn set_clock_error(&mut self, clock_error: SignedDuration) {
         self.clock_error = clock_error;
         self.drift = self.drift.map(|(gains_s_day, _)| (gains_s_day, self.elapsed));
@@ -234,7 +234,7 @@ impl Satrak {
         self.is_clock_from_gps = true;
     }
 
-    /// Site that the unit works with.
+    /// Returns the site that the unit uses.
     fn own_site(&self) -> Site {
         let by_hand = self.memory.gps.filter(|gps| !gps.automatic).map(|gps| gps.position);
         by_hand.map_or(self.site, |place| {
@@ -243,12 +243,12 @@ impl Satrak {
         })
     }
 
-    /// Azimuth of the lower axis as the unit believes it to be.
+    /// Returns the azimuth of the lower axis by the unit's settings.
     fn north(&self) -> Angle {
         self.lower_axis + Angle::from_degrees(self.memory.settings.north_offset_deg)
     }
 
-    /// Mechanical angles for measured ones, degrees.
+    /// Returns the mechanical angles for measured ones, degrees.
     fn mechanical(&self, [x_deg, y_deg]: [f64; 2]) -> [f64; 2] {
         let [x_shift, y_shift] = self.memory.shifts_deg();
         [x_deg - x_shift, y_deg - y_shift]
@@ -276,7 +276,7 @@ impl Satrak {
         xy_from_azel(read, self.north())
     }
 
-    /// Measured direction.
+    /// Returns the measured direction.
     fn direction(&self) -> AzEl {
         azel_from_xy(self.last_xy_deg, self.north())
     }

@@ -1,7 +1,7 @@
 //! Fetch of one file from an FTP server, with or without TLS.
 //!
-//! The FTP library writes whole commands, passwords included, to the `log` facade at its
-//! finest level. `Cargo.toml` compiles that level out.
+//! The FTP library logs whole commands, including passwords, through the `log` facade at its finest
+//! level. `Cargo.toml` compiles that level out.
 
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ use crate::{
     },
 };
 
-/// A file, its server and the log-in.
+/// File to fetch, with its server and log-in.
 pub(super) struct Request<'a> {
     pub(super) peer: &'a Peer,
     /// Trusted roots for TLS; `None` for plain FTP.
@@ -46,7 +46,8 @@ pub(super) async fn fetch(
 ) -> Result<Vec<u8>, FetchError> {
     let Request { peer, roots, user, password, file } = request;
     let stream = dial(peer, limits, cancel).await?;
-    // The address in an answer is often the one behind a router, or a trap.
+    // Use the control connection's address: the one in an answer is often behind a router, or a
+    // trap.
     let address = stream.peer_addr().map_err(|error| failed(ConnectStep::Connect, &error, peer))?;
     let data = Peer { host: address.ip().to_string(), port: peer.port };
     let tls = roots.map(tls_connector).transpose()?;
@@ -67,7 +68,7 @@ pub(super) async fn fetch(
             error => failed(step, &error, peer),
         })?;
     let work = async {
-        // Binary: text mode would change the line ends.
+        // Binary mode: text mode would change the line ends.
         ftp.transfer_type(FileType::Binary).await.map_err(in_words)?;
         let stream = open_data(&mut ftp, data, limits, cancel).await?;
         retrieve(&mut ftp, file, (stream, tls, peer), limits).await
@@ -104,7 +105,7 @@ fn in_words(error: FtpError) -> FetchError {
         FtpError::UnexpectedResponse(response) if response.status == Status::FileUnavailable => {
             FetchError::NoFile
         }
-        // Replies from 400 on refuse a command, RFC 959 section 4.2.
+        // Replies from 400 up refuse a command (RFC 959, section 4.2).
         FtpError::UnexpectedResponse(response) if response.status.code() >= 400 => {
             FetchError::Refused(response.to_string())
         }
@@ -115,8 +116,8 @@ fn in_words(error: FtpError) -> FetchError {
     }
 }
 
-/// Opens the connection for a file, in the extended passive mode (RFC 2428), or in the plain one
-/// (RFC 959) where the server does not know it or where its port cannot be reached.
+/// Opens the connection for a file in extended passive mode (RFC 2428). Falls back to plain passive
+/// mode (RFC 959) if the server does not know it or its port cannot be reached.
 async fn open_data(
     ftp: &mut AsyncRustlsFtpStream,
     data: Peer,
@@ -150,8 +151,8 @@ async fn passive_port(
     port(&text).ok_or_else(|| FetchError::NotUnderstood(response.to_string()))
 }
 
-/// The port in the answer to EPSV: between four equal characters, such as `(|||6446|)`. Some servers
-/// leave out the parentheses.
+/// Returns the port in an answer to EPSV. It stands between four equal characters, such as
+/// `(|||6446|)`; some servers omit the parentheses.
 fn extended_port(text: &str) -> Option<u16> {
     let letters: Vec<char> = text.chars().collect();
     letters.windows(3).enumerate().find_map(|(place, window)| {
@@ -168,8 +169,8 @@ fn extended_port(text: &str) -> Option<u16> {
     })
 }
 
-/// The port in the answer to PASV: the last two of six numbers. RFC 1123, section 4.1.2.6: the
-/// parentheses may be missing.
+/// Returns the port in an answer to PASV, from the last two of six numbers. The parentheses may be
+/// missing (RFC 1123, section 4.1.2.6).
 fn plain_port(text: &str) -> Option<u16> {
     let text = text.replace(", ", ",");
     text.split(|letter: char| !letter.is_ascii_digit() && letter != ',').find_map(|word| {
@@ -203,8 +204,8 @@ async fn retrieve(
         }
         None => read(stream, limits).await?,
     };
-    // Only the answer after the file tells a complete one from an interrupted one. It comes before
-    // that to the next command.
+    // Only the server's answer after the file shows that the file is complete. The answer precedes
+    // the one to the next command.
     let ended = [Status::ClosingDataConnection, Status::RequestedFileActionOk];
     ftp.custom_command("NOOP", &ended).await.map_err(in_words)?;
     Ok(bytes)

@@ -1,16 +1,16 @@
-//! Contents of a file of elements as a unit will see them.
+//! Contents of an element file as a unit will read them.
 
 use crate::{
     contract::transfer::{FileHash, FileObject, SatelliteMatch, UnitView},
     orbit::{Elements, read_element_bytes},
 };
 
-/// Columns of a TLE line before its checksum.
+/// Number of columns of a TLE line before its checksum.
 const TLE_COLUMNS: usize = 68;
-/// Maximum number of suggestions for a name that was not found.
+/// Max number of suggestions for a name that was not found.
 const MAX_SIMILAR: usize = 5;
 
-/// Reads `bytes` as a unit that follows `satellite` will.
+/// Reads `bytes` like a unit that follows `satellite`.
 pub fn what_a_unit_sees(bytes: &[u8], satellite: &str) -> UnitView {
     let read = read_element_bytes(bytes);
     let named = |elements: &&Elements| elements.name() == satellite;
@@ -39,7 +39,7 @@ pub fn what_a_unit_sees(bytes: &[u8], satellite: &str) -> UnitView {
     }
 }
 
-/// Names that differ only in case or blanks, or that contain the wanted name or are
+/// Returns names that differ only in case or blanks, or that contain the expected name or are
 /// contained in it.
 fn similar(elements: &[Elements], expected: &str) -> Vec<String> {
     let plain = |name: &str| {
@@ -57,7 +57,7 @@ fn similar(elements: &[Elements], expected: &str) -> Vec<String> {
     names.take(MAX_SIMILAR).map(str::to_owned).collect()
 }
 
-/// Returns `true` if two consecutive lines are those of a TLE.
+/// Returns `true` if two consecutive lines have the form of a TLE.
 fn is_tle(bytes: &[u8]) -> bool {
     let is_line = |line: &[u8], start: &[u8]| line.starts_with(start) && line.len() >= TLE_COLUMNS;
     let mut first = false;
@@ -72,7 +72,7 @@ fn is_tle(bytes: &[u8]) -> bool {
 mod tests {
     use super::*;
 
-    /// From the book of the theory (Spacetrack Report 3), with its original numbers.
+    /// Element sets of Spacetrack Report 3, with its original numbers.
     const SETS: &str = "\
 TEST 1\r
 1 88888U          80275.98708465  .00073094  13844-3  66816-4 0    87\r

@@ -14,7 +14,7 @@ use crate::{
     transfer::{Limits, limits::with_timeout},
 };
 
-/// Requests `url` once. A redirection is reported, not followed.
+/// Requests `url` once. Reports a redirection but does not follow it.
 pub(super) async fn fetch(
     url: &str,
     limits: Limits,
@@ -22,12 +22,12 @@ pub(super) async fn fetch(
 ) -> Result<Vec<u8>, FetchError> {
     let uri: Uri = url.parse().map_err(|_| FetchError::Address)?;
     let is_web = matches!(uri.scheme_str(), Some("http" | "https"));
-    // Refused: a password in an address would be shown and logged.
+    // Refuse a password in the address: it would be shown and logged.
     let is_plain = uri.authority().is_some_and(|authority| !authority.as_str().contains('@'));
     if !is_web || !is_plain {
         return Err(FetchError::Address);
     }
-    // After a cancel the thread ends by its own time limit; nobody waits for it.
+    // After a cancel, the thread ends by its own timeout.
     let asking = tokio::task::spawn_blocking(move || ask(&uri, limits));
     with_timeout(limits.file, cancel, asking)
         .await?
@@ -39,7 +39,7 @@ fn ask(uri: &Uri, limits: Limits) -> Result<Vec<u8>, FetchError> {
         .http_status_as_error(false)
         .max_redirects(0)
         .max_redirects_will_error(false)
-        // No proxy: the unit does not have this computer's either.
+        // Use no proxy: the unit does not use this computer's proxy.
         .proxy(None)
         .timeout_connect(Some(limits.connect))
         .timeout_recv_response(Some(limits.request))

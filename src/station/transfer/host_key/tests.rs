@@ -5,14 +5,14 @@ const ONE: &str =
 const TWO: &str =
     "ssh-ed25519 AAAAC3NzaC1lZDI1NTE5AAAAIEW3EBo4Em16hrVMZDUQcg7v/Pq35hmOWjXp9At0UPIZ two";
 const THREE: &str = "ecdsa-sha2-nistp256 AAAAE2VjZHNhLXNoYTItbmlzdHAyNTYAAAAIbmlzdHAyNTYAAABBBNScV7mmYjyBcEGsexCE0NZ91vQYRuqXzQBkeUd0pm12GMbWeYI6IzLmSd027PotffSnxW4oNI3oyTL5gqR4Yo8= three";
-/// As `ssh-keygen -lf` shows it.
+/// Fingerprint in the form of `ssh-keygen -lf`.
 const FINGERPRINT_ONE: &str = "SHA256:xtHUAijFzjeZW7nK3IjuWlIEdn00NF3KRrYerlaM/vk";
 
 fn offered(host: &str, port: u16, key: &str) -> OfferedKey {
     OfferedKey::new(host, port, key.parse().unwrap())
 }
 
-/// A file with `text`; keep the folder alive.
+/// Returns a file with `text`, and its folder, which must stay alive.
 fn file(text: &str) -> (tempfile::TempDir, KnownHosts) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("known_hosts");
@@ -31,7 +31,7 @@ fn a_key_is_asked_about_once_then_pinned_and_another_refused() {
     assert_eq!(known_hosts.check(&offered("unit", 22, ONE)).unwrap(), KeyVerdict::Pinned);
     let changed = KeyVerdict::Changed { pinned: vec![FINGERPRINT_ONE.to_owned()] };
     assert_eq!(known_hosts.check(&offered("unit", 22, TWO)).unwrap(), changed);
-    // A key of another algorithm counts as changed too, or the pin could be bypassed.
+    // A key of another algorithm counts as changed; otherwise an attacker could bypass the pin.
     assert_eq!(known_hosts.check(&offered("unit", 22, THREE)).unwrap(), changed);
     assert_eq!(known_hosts.check(&offered("unit", 2222, TWO)).unwrap(), KeyVerdict::Unknown);
     assert_eq!(known_hosts.check(&offered("unit2", 22, TWO)).unwrap(), KeyVerdict::Unknown);
@@ -85,7 +85,7 @@ fn a_damaged_file_never_makes_a_known_host_unknown() {
     let (_folder, known_hosts) = file(&format!("# x\n\nunit {}\n", &ONE[..40]));
     let error = known_hosts.check(&offered("unit", 22, TWO)).unwrap_err();
     assert!(matches!(error, KnownHostsError::Line { line: 3, .. }), "{error}");
-    // A folder in place of the file cannot be read either.
+    // A folder in place of the file is unreadable too.
     let folder = tempfile::tempdir().unwrap();
     let error = KnownHosts::new(folder.path()).check(&offered("unit", 22, TWO)).unwrap_err();
     assert!(matches!(error, KnownHostsError::Disk { .. }), "{error}");

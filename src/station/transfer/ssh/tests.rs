@@ -9,7 +9,7 @@ use russh::{
 use super::*;
 use crate::transfer::KnownHosts;
 
-/// A host with one user, asked in one of two ways.
+/// Host with one user and one of two ways to log in.
 struct Host {
     is_interactive: bool,
 }
@@ -47,7 +47,7 @@ fn ed25519() -> PrivateKey {
     PrivateKey::new(pair, "").unwrap()
 }
 
-/// Logs in at a host with these algorithms. Returns the old ones that are in use.
+/// Logs in at a host with these algorithms. Returns the old algorithms in use.
 async fn logged_in(
     preferred: Preferred,
     is_interactive: bool,
@@ -106,7 +106,7 @@ async fn old_algorithms_are_taken_and_named_where_a_host_offers_nothing_else() {
             },
             vec![(Mac, "hmac-sha1")],
         ),
-        // The cipher needs no code.
+        // The cipher needs no MAC.
         (Preferred { mac: vec![mac::HMAC_SHA1].into(), ..default.clone() }, vec![]),
         (
             Preferred {
@@ -140,7 +140,8 @@ async fn a_host_key_that_signs_with_sha1_alone_is_named() {
     }
 }
 
-/// RFC 4253, section 7.1: the first algorithm of the client that the server knows too.
+/// A connection uses the first algorithm of the client that the server also supports (RFC 4253,
+/// section 7.1).
 #[test]
 fn old_algorithms_come_last() {
     let config = config(&[]);

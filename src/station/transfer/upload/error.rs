@@ -15,34 +15,33 @@ pub enum UploadReason {
     /// Failure of the unit or the link.
     #[error(transparent)]
     Folder(#[from] FolderError),
-    /// The old file could not be kept on this computer.
+    /// The old file could not be stored on this computer.
     #[error(transparent)]
     Keep(#[from] KeptError),
-    /// The file read back is not the same.
+    /// The file read back differs from the new one.
     #[error("what is there is not what was sent; try again, and check the disk of the unit")]
     Differs,
 }
 
-/// State of the unit's folder after a failed upload. The old elements are never lost: they
-/// are on the unit as this says and, from [`UploadStep::Write`] on, also kept on this
-/// computer.
+/// State of the unit's folder after a failed upload. The old elements are never lost. This state
+/// says where they are on the unit; from [`UploadStep::Write`] on, this computer also has them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum FolderState {
     AsBefore,
-    /// The old file is unchanged; part of the new one may be beside it, and the next upload
-    /// removes it.
+    /// The old file is unchanged. Part of the new file may be beside it; the next upload removes
+    /// this part.
     Leftover {
-        /// Name of the part.
+        /// Name of the partial file.
         name: String,
     },
     /// Either the old file or the complete new one is in its place.
     OldOrNew,
-    /// The old file is complete under another name, and the new one may be in its place. The
-    /// next upload first puts the old one back if its place is empty.
+    /// The old file is complete under another name, and the new file may be in its place. If the
+    /// place is empty, the next upload first restores the old file.
     OldAside {
         name: String,
     },
-    /// The new file took its place after the comparison, but there it was not proved, or
+    /// The new file took its place after the comparison, but it was not proved in that place, or
     /// another file was found.
     NewUnproved,
 }
@@ -68,13 +67,13 @@ impl fmt::Display for FolderState {
     }
 }
 
-/// An upload that ended without proof.
+/// Upload that ended without proof.
 #[derive(Debug, thiserror::Error)]
 #[error("the upload failed while {step}: {reason} ({state})")]
 pub struct UploadError {
     /// Step that failed.
     pub step: UploadStep,
     pub reason: UploadReason,
-    /// Present state of the unit.
+    /// Current state of the unit.
     pub state: FolderState,
 }

@@ -13,18 +13,18 @@ use crate::{
     },
 };
 
-/// Name of the file while it is written, without `.txt` or `.tle` at the end, so that a
-/// unit does not take it for elements.
+/// Returns the name of the file during the upload. It does not end in `.txt` or `.tle`, so that a
+/// unit does not take the file for elements.
 pub(super) fn new_name(file: &str) -> String {
     format!("{file}.azel-new")
 }
 
-/// Name of the old file while the new one takes its place, if that needs two steps.
+/// Returns the name of the old file during a replacement in two steps.
 pub(super) fn old_name(file: &str) -> String {
     format!("{file}.azel-old")
 }
 
-/// A file on its way to a folder.
+/// Upload of one file to a folder.
 pub(super) struct Put<'a, F> {
     pub(super) folder: &'a mut F,
     pub(super) file: &'a str,
@@ -34,8 +34,8 @@ pub(super) struct Put<'a, F> {
 }
 
 impl<F: Folder> Put<'_, F> {
-    /// Puts the file in its place and proves it. `keep_old` gets the old file before anything
-    /// is written; if it fails, nothing is written.
+    /// Puts the file in its place and proves it. Calls `keep_old` with the old file before any
+    /// write; if it fails, nothing is written.
     pub(super) async fn run(
         mut self,
         keep_old: &mut dyn FnMut(&[u8]) -> Result<(), KeptError>,
@@ -54,14 +54,14 @@ impl<F: Folder> Put<'_, F> {
             self.swap(old.is_some(), &new_name, &old_name).await?;
         }
         self.prove().await?;
-        // An earlier upload that broke off may have left it too.
+        // An earlier interrupted upload may also have left this file.
         if let Err(error) = self.folder.remove(&old_name).await {
             tracing::warn!(%error, file, "the file before the last was left on the unit");
         }
         Ok(())
     }
 
-    /// Reads the present file, after mending an earlier upload that broke off.
+    /// Reads the current file, after repairing an interrupted upload.
     async fn read_old(&mut self) -> Result<Option<FolderFile>, UploadReason> {
         if let Some(old) = self.read(UploadStep::ReadOld, self.file).await? {
             return Ok(Some(old));
@@ -75,7 +75,7 @@ impl<F: Folder> Put<'_, F> {
         Ok(old)
     }
 
-    /// Writes the file beside the old one and compares it.
+    /// Writes the file beside the old one and compares its content.
     async fn write(&mut self, mode: Option<u32>) -> Result<(), UploadError> {
         let name = new_name(self.file);
         if let Err(reason) = self.send(&name, mode).await {
@@ -98,7 +98,7 @@ impl<F: Folder> Put<'_, F> {
         unless_cancelled(self.cancel, writing).await
     }
 
-    /// Replaces in one step on the unit: there is no moment without a complete file.
+    /// Replaces the file in one step on the unit: a complete file exists at every moment.
     async fn swap_at_once(&mut self, new_name: &str) -> Result<(), UploadError> {
         match self.folder.replace(new_name, self.file).await {
             Ok(()) => Ok(()),
@@ -111,7 +111,7 @@ impl<F: Folder> Put<'_, F> {
         }
     }
 
-    /// Replaces in two steps on the unit, with the old file under another name in between.
+    /// Replaces the file in two steps on the unit; the old file has another name in between.
     async fn swap(
         &mut self,
         has_old: bool,
@@ -121,7 +121,7 @@ impl<F: Folder> Put<'_, F> {
         let step = UploadStep::Replace;
         let state = FolderState::OldAside { name: old_name.to_owned() };
         if has_old {
-            // The file at that name is older than the one in its place.
+            // A file with the old name is older than the current file.
             let moving = async {
                 self.folder.remove(old_name).await?;
                 self.folder.rename(self.file, old_name).await
@@ -146,7 +146,7 @@ impl<F: Folder> Put<'_, F> {
         Err(self.withdraw(step, error.into()).await)
     }
 
-    /// Proves the new file. Cannot be cancelled: it is in its place already.
+    /// Proves the new file. This step cannot be cancelled: the file is already in its place.
     async fn prove(&mut self) -> Result<(), UploadError> {
         let step = UploadStep::Prove;
         self.advance(step);
@@ -162,7 +162,7 @@ impl<F: Folder> Put<'_, F> {
         Err(UploadError { step, reason, state: FolderState::NewUnproved })
     }
 
-    /// Removes the part of the new file again.
+    /// Removes the partial new file after a failure.
     async fn withdraw(&mut self, step: UploadStep, reason: UploadReason) -> UploadError {
         let name = new_name(self.file);
         let is_lost = matches!(&reason, UploadReason::Folder(error) if error.ends_connection());

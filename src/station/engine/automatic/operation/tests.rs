@@ -6,7 +6,7 @@ fn time(second: f64) -> Timestamp {
     add_seconds(Timestamp::UNIX_EPOCH, second)
 }
 
-/// A pass of satellite `number`, for which the antenna has to go 60 s before it begins.
+/// Returns a pass of satellite `number`, for which the antenna must set out 60 s before its start.
 fn duty(number: u32, from_s: f64) -> Duty {
     Duty {
         pass: (number, time(from_s)),
@@ -40,7 +40,7 @@ fn taking(number: u32) -> Observation {
     Observation { takes: Some(number), is_proved: true, moves: true, ..STANDS }
 }
 
-/// An antenna with its duties, looked at once a second.
+/// Antenna with its duties, observed once a second.
 struct Fixture {
     operation: Operation,
     duties: Vec<Duty>,
@@ -63,7 +63,7 @@ impl Fixture {
         }
     }
 
-    /// All acts until `to_s`, with their seconds, while the antenna is seen like this.
+    /// Returns all acts until `to_s` with their seconds, while `observe` supplies the state.
     fn run_until(&mut self, to_s: f64, observe: impl Fn(f64) -> Observation) -> Vec<(f64, Act)> {
         let mut acts = Vec::new();
         while self.now_s < to_s {
@@ -155,7 +155,7 @@ fn a_track_that_somebody_ends_suspends_it() {
     assert_eq!(fixture.operation, suspended);
 }
 
-/// The end of a track, and a motion that nobody asked for, follow from a stop of the driver.
+/// The driver's stop causes the end of the track and the unrequested motion.
 #[test]
 fn a_stop_for_safety_stays_the_cause_whatever_follows_or_came_before() {
     let consequences: [fn(&mut Operation); 3] = [
@@ -235,7 +235,7 @@ fn a_unit_that_is_not_ready_costs_its_passes_and_no_more() {
     let mut fixture = Fixture::new(&duties);
     let faulty = Observation { not_ready: Some(NotReady::Fault), ..STANDS };
     assert_eq!(fixture.run_until(2550.0, |_| faulty), []);
-    // Cleared when it should have set out, in the middle of the pass.
+    // The fault is cleared in the middle of the pass.
     let cleared = |now_s: f64| if now_s < 2700.0 { faulty } else { STANDS };
     assert_eq!(fixture.run_until(2740.0, cleared), [(2730.0, Act::Take(duties[3]))], "announced");
     assert!(fixture.operation.is_on());
@@ -416,7 +416,7 @@ fn nothing_is_sent_while_somebody_else_moves_the_antenna() {
     let mut fixture = Fixture::new(&[duty(1, 200.0), duty(2, 1000.0)]);
     fixture.run_until(150.0, |_| STANDS);
     fixture.run_until(850.0, |_| taking(1));
-    // Never for as long as it takes to suspend.
+    // No nudge lasts long enough to suspend automatic operation.
     let nudged = |now_s: f64| {
         let is_moved = now_s as i64 % 5 != 0;
         Observation { is_moved_elsewhere: is_moved, moves: is_moved, ..STANDS }
@@ -443,7 +443,7 @@ fn a_late_reply_now_and_then_does_not_begin_the_warning_again() {
 fn what_was_announced_is_announced_anew_when_it_could_not_be_done() {
     let duties = [duty(1, 200.0)];
     let mut fixture = Fixture::new(&duties);
-    // The warning runs out while the unit does not answer.
+    // The announcement ends while the unit does not answer.
     let acts = fixture.run_until(400.0, |now_s| {
         let is_live = !(120.0..300.0).contains(&now_s);
         Observation { is_live, is_silent: !is_live, ..STANDS }

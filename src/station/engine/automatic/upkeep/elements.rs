@@ -1,4 +1,4 @@
-//! Uploads newer elements to a unit between passes.
+//! Uploads of newer elements to a unit between passes.
 
 use std::{collections::BTreeMap, mem, time::Duration};
 
@@ -27,25 +27,25 @@ use crate::{
     station::{self, AntennaId},
 };
 
-/// Least time before the antenna sets out, for an upload to begin, seconds.
+/// Min time before departure for starting an upload, seconds.
 const MIN_TIME_FOR_UPLOAD_S: f64 = 300.0;
-/// An upload is cancelled so long before the antenna sets out, seconds.
+/// Time before departure at which Azel cancels an upload, seconds.
 const ENDS_BEFORE_S: f64 = 60.0;
-/// Time between two checks of the age of the elements.
+/// Time between two checks of the elements' age.
 const CHECK_PERIOD: Duration = Duration::from_mins(1);
-/// Checks after which an upload that is due and blocked by another raises an alarm.
+/// Number of checks with a due but blocked upload that raises an alarm.
 const MAX_BLOCKED: u32 = 60;
-/// Longest upload. A locked keyring may wait for somebody for ever.
+/// Max duration of an upload. A locked keyring may wait for somebody without end.
 const UPLOAD_TIMEOUT: Duration = Duration::from_mins(30);
 
-/// An upload that a rule has begun.
+/// Upload that a rule has begun.
 pub(in crate::engine) struct RuleUpload {
     pub(in crate::engine) antenna: AntennaId,
     start: Instant,
 }
 
 impl Engine {
-    /// Uploads newer elements if those on the unit are too old.
+    /// Uploads newer elements if the ones on the unit are too old.
     pub(super) fn keep_elements(&mut self, index: usize) {
         let steady = self.steady;
         let Some(antenna) = self.antennas.get(index) else { return };
@@ -61,7 +61,7 @@ impl Engine {
         if !is_due {
             return;
         }
-        // Until unit and elements are read, nothing is checked.
+        // Wait until the unit's settings and the elements are read.
         let Some(needed) = self.needed_upload(shown) else { return };
         self.check_elements_after(id, CHECK_PERIOD);
         match needed {
@@ -96,8 +96,8 @@ impl Engine {
         true
     }
 
-    /// The upload that an antenna's unit needs now, if any, or why there can be none; `None` while
-    /// that is not known.
+    /// Returns the upload that an antenna's unit needs now, or the reason why none is possible.
+    /// `None` means that this is not known yet.
     fn needed_upload(&self, antenna: &AntennaModel) -> Option<Result<Option<Order>, String>> {
         let takes = antenna.spec().element_files?;
         let CatalogState::Ready(catalog) = &self.catalog else { return None };
@@ -110,7 +110,7 @@ impl Engine {
         let last = self.last_run.unit_elements(antenna.id(), address);
         let on_unit: BTreeMap<u32, Timestamp> =
             last.map(|last| last.epochs.iter().copied().collect()).unwrap_or_default();
-        // The upload replaces the whole file. Satellites that an operator added must stay in it.
+        // The upload replaces the whole file, so keep satellites that an operator added.
         let mut numbers = self.station.favourites.numbers();
         let others: Vec<u32> =
             on_unit.keys().copied().filter(|number| !numbers.contains(number)).collect();
@@ -136,11 +136,12 @@ impl Engine {
         self.last_run.note_upload(unit, target, objects, self.uploads.is_roll_back);
         self.keep_last_run();
         self.clear_upload_alarm(config.id);
-        // An upload by hand is not replaced at once.
+        // Do not replace an upload by hand at once.
         self.check_elements_after(config.id, RETRY);
     }
 
-    /// Cancels the upload of a rule once its antenna is needed, the rule is off or the station closes.
+    /// Cancels the upload of a rule if its antenna is needed, the rule is off or the station
+    /// closes.
     pub(in crate::engine) fn limit_rule_upload(&mut self) {
         let Some(upload) = &self.rule_upload else { return };
         let (id, start) = (upload.antenna, upload.start);
@@ -165,7 +166,7 @@ impl Engine {
         self.end_rule_upload();
     }
 
-    /// Records how the upload of a rule has ended.
+    /// Records the end of a rule's upload.
     pub(in crate::engine) fn end_rule_upload(&mut self) {
         if self.uploads.stage.is_open() {
             return;
@@ -182,7 +183,7 @@ impl Engine {
             }
             Stage::Failed(failure) => {
                 let (reason, is_cancel) = (failure.text.clone(), failure.is_cancel);
-                // The window offers what an operator can do about an order by hand.
+                // Clear the stage: the window would offer actions meant for uploads by hand.
                 mem::take(&mut self.uploads.stage);
                 if is_cancel {
                     self.note_day(id, DayEvent::ElementsNotUploaded { reason });
@@ -223,7 +224,7 @@ impl Engine {
     }
 }
 
-/// The elements of those satellites that a unit takes in one file.
+/// Returns the elements of the satellites that the unit accepts in one file.
 fn chosen<'a>(
     catalog: &'a Catalog,
     numbers: &[u32],
@@ -233,7 +234,7 @@ fn chosen<'a>(
     for elements in numbers.iter().filter_map(|number| catalog.get(*number)) {
         let Ok(alone) = TleFile::new([elements], takes) else { continue };
         let Some(object) = alone.objects().first().cloned() else { continue };
-        // The unit looks for a satellite by its name.
+        // The unit looks up a satellite by its name.
         if chosen.iter().all(|(chosen_object, _)| chosen_object.name != object.name) {
             chosen.push((object, elements));
         }
@@ -241,8 +242,8 @@ fn chosen<'a>(
     chosen
 }
 
-/// Returns `true` if newer elements are at hand for a satellite that is missing on the unit or too
-/// old there. The whole file is replaced, so it fails if it would make a satellite older.
+/// Returns `true` if newer elements exist for a satellite that is missing or too old on the unit.
+/// Fails if the upload, which replaces the whole file, would make a satellite older.
 fn is_upload_due(
     chosen: &[(FileObject, &Elements)],
     on_unit: &BTreeMap<u32, Timestamp>,
@@ -363,7 +364,7 @@ mod tests {
         let (mut engine, left) = station(folder.path());
         let config = engine.antennas[0].shown.config.clone();
         engine.note_upload(&config, target(), &[object(1, 10.0), object(2, 11.0)]);
-        // The rule waits for elements newer than those that the operator took back.
+        // The rule waits for elements newer than the ones that the operator took back.
         engine.uploads.is_roll_back = true;
         engine.note_upload(&config, target(), &[object(1, 9.0), object(3, 7.0)]);
         let read = LastRun::load(&left);
@@ -378,7 +379,7 @@ mod tests {
         assert!(read.unit_elements(AntennaId(2), &config.connection.address).is_none());
     }
 
-    /// An engine whose rule has begun an upload.
+    /// Returns an engine whose rule has begun an upload.
     fn uploading(folder: &std::path::Path) -> Engine {
         let (mut engine, _) = station(folder);
         let shown = &mut engine.antennas[0].shown;
@@ -430,7 +431,7 @@ mod tests {
         engine.limit_rule_upload();
         assert_eq!(engine.uploads.stage, Stage::Idle);
         assert!(engine.rule_upload.is_none() && alarms(&engine) == 1);
-        // The next upload by hand clears it.
+        // The next upload by hand clears the alarm.
         let config = engine.antennas[0].shown.config.clone();
         engine.note_upload(&config, target(), &[]);
         assert_eq!(alarms(&engine), 0);

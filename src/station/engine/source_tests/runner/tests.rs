@@ -15,7 +15,7 @@ use crate::{
 
 const NOAA_20: u32 = 43_013;
 
-/// A runner, its displayed state, and a channel that receives its wakes.
+/// Returns a runner, its displayed state, and a channel that receives its wakes.
 fn runner(folder: &tempfile::TempDir) -> (Runner, SourceTests, mpsc::Receiver<()>) {
     let places = Places {
         known_hosts: KnownHosts::new(folder.path().join("known_hosts")),

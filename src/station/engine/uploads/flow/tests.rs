@@ -62,7 +62,7 @@ fn report(outcome: Outcome) -> Report {
     Report { outcome, is_logged_in: true, is_factory: false, keyring_problem, old_algorithms }
 }
 
-/// An order, and its displayed state.
+/// Order with its displayed state.
 #[derive(Default)]
 struct Fixture {
     flow: Flow,
@@ -84,7 +84,7 @@ impl Fixture {
         self.flow.reported(report(outcome), &self.unit, &mut self.shown)
     }
 
-    /// Tracking and auto-track end before the unit is set to use the file.
+    /// Checks that tracking and auto-track end before the unit uses the file.
     fn assert_rests_before_it_is_told(&mut self, go_on: impl FnOnce(&mut Self) -> Option<Next>) {
         self.unit.hindrance = Some(Hindrance::Tracks);
         assert!(matches!(go_on(self), Some(Next::Rest)));
@@ -257,7 +257,7 @@ fn a_changed_host_key_is_refused_until_the_old_one_is_forgotten() {
     let next = fixture.flow.forget_host(&mut fixture.shown);
     assert!(matches!(next, Some(Next::Decide(Decision::Forget(host))) if host == peer()));
     assert_runs(fixture.flow.decided(Ok(()), &mut fixture.shown));
-    // Without such a refusal there are no keys to forget.
+    // No host key was refused, so there is no key to forget.
     assert!(fixture.flow.forget_host(&mut fixture.shown).is_none());
 }
 
@@ -356,7 +356,7 @@ fn a_passphrase_is_kept_under_its_key_file() {
     assert_eq!(account.to_string(), "/home/op/key@192.168.10.21:22");
 }
 
-/// A fixture whose antenna a rule may use.
+/// Returns a fixture whose antenna a rule may use.
 fn idle() -> Fixture {
     Fixture { unit: UnitNow { is_idle: true, ..UnitNow::default() }, ..Fixture::default() }
 }

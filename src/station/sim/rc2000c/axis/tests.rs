@@ -57,7 +57,7 @@ fn after_a_jog_the_axis_runs_out_untold() {
     assert!(axis.is_turning());
     run(&mut axis, 1.0);
     assert!(!axis.is_turning());
-    // v squared over 2 a.
+    // The braking distance is v squared over 2 a.
     assert!((released - axis.counts - 16.0).abs() < 1.5, "{released} {}", axis.counts);
 }
 
@@ -131,7 +131,7 @@ fn a_late_drive_starts_and_stops_late_but_says_at_once_what_it_does() {
     assert_eq!(axis.drive(), AxisDrive::Still);
     run(&mut axis, 0.5);
     assert!((axis.counts - counts - 20.0).abs() < 1.0, "at full rate");
-    // A jog whose time begins when the drive obeys.
+    // The time of a jog begins when the drive obeys.
     run(&mut axis, 5.0);
     axis.jog(Sense::Positive, Speed::Fast, 1.0);
     run(&mut axis, 1.4);
@@ -148,7 +148,7 @@ fn coasting_minimum_run_play_and_noise_are_as_told() {
     run(&mut axis, 1.0);
     let counts = axis.counts;
     run(&mut axis, 3.5);
-    // Half of 3 s at 40 counts a second.
+    // The axis coasts half of 3 s at 40 counts a second.
     assert!((axis.counts - counts - 60.0).abs() < 2.0 && !axis.is_turning());
 
     let minimum_run = Duration::from_secs(1);
@@ -159,7 +159,7 @@ fn coasting_minimum_run_play_and_noise_are_as_told() {
 
     let mut axis = imperfect(Mechanics { backlash_deg: 1.0, ..Mechanics::default() });
     axis.auto_move(1005);
-    // Ten counts of play first.
+    // The drive first crosses ten counts of play.
     assert!(run(&mut axis, 0.4).iter().all(|counts| (counts - 1000.0).abs() < 1e-9));
     run(&mut axis, 5.0);
     assert_eq!((axis.counts(), axis.drive()), (1005, AxisDrive::Still));

@@ -34,7 +34,7 @@ impl Client {
         Reply::parse(&self.receive().await.unwrap().unwrap()).unwrap()
     }
 
-    /// Sends raw characters of a command, without the checksum.
+    /// Sends the raw characters of a command, and adds the checksum.
     async fn ask_raw(&mut self, command: &[u8]) -> Option<Reply> {
         let mut bytes = command.to_vec();
         bytes.push(checksum(command));

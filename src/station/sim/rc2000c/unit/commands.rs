@@ -1,4 +1,4 @@
-//! Answers to commands, which are carried out at once.
+//! Answers to commands, which the unit carries out at once.
 
 use super::Rc2000c;
 use crate::protocol::rc2000c::{
@@ -9,14 +9,14 @@ use crate::sim::rc2000c::satellites::StoredSatellite;
 use crate::sim::rc2000c::tracking::Tracking;
 use crate::sim::rc2000c::{Fault, Mode, Quirk};
 
-/// Step of the jog timer.
+/// Step of the jog timer, milliseconds.
 const JOG_STEP_MS: u128 = 150;
 
-/// The command cannot be carried out.
+/// Error of a command that the unit cannot carry out.
 struct Refused;
 
 impl Rc2000c {
-    /// Answers a command, if it deserves an answer. Call `advance` first.
+    /// Answers a command if it needs an answer. Must be called after `advance`.
     pub(in crate::sim::rc2000c) fn answer(&mut self, frame: &Frame) -> Option<Reply> {
         let code = frame.code();
         let Ok(request) = Request::parse(frame) else {
@@ -116,7 +116,7 @@ impl Rc2000c {
             return Err(Refused);
         }
         self.go_to(satellite.az_counts, satellite.el_counts)?;
-        // The manual does not say which of the two automatic polarization takes.
+        // The manual does not say which polarization the automatic mode selects.
         let automatic = self.is_auto_polarization.then_some(Polarity::Horizontal);
         if let Some(polarity) = polarity.or(automatic) {
             self.feed.go_to(units_of(&satellite, polarity));
@@ -162,7 +162,7 @@ impl Rc2000c {
         if axis.limit() == Some(sense) && self.quirks.contains(&Quirk::RefuseAtLimit) {
             return Err(Refused);
         }
-        // One axis at a time.
+        // The unit jogs one axis at a time.
         other.stop();
         let duration_ms = jog.duration().as_millis().next_multiple_of(JOG_STEP_MS);
         axis.jog(sense, jog.speed(), duration_ms as f64 / 1000.0);

@@ -1,4 +1,4 @@
-//! The unit as a peer on the serial line.
+//! Unit as a peer on the serial line.
 
 use std::time::Duration;
 
@@ -16,7 +16,7 @@ impl harness::Unit for Rc2000c {
     type Fault = Fault;
     type Request = Frame;
     type Snapshot = Snapshot;
-    /// Counts.
+    /// Counts of azimuth and elevation.
     type Place = [u16; 2];
     type Wire = Line;
 

@@ -1,4 +1,4 @@
-//! Status of the unit as it reports it.
+//! Status of the unit in its own reports.
 
 use super::Rc2000c;
 use crate::protocol::rc2000c::{
@@ -11,10 +11,10 @@ use crate::sim::rc2000c::satellites::Closeness;
 use crate::sim::rc2000c::tracking::Tracking;
 use crate::sim::rc2000c::{Fault, Quirk};
 
-/// Counts of azimuth at 180 degrees, and of elevation at 0.
+/// Counts at 180 degrees of azimuth, and at 0 degrees of elevation.
 const AZIMUTH_CENTRE: i32 = 1830;
 const ELEVATION_ZERO: i32 = 30;
-/// Gain that a user enters; with it one count is half a tenth of a degree.
+/// Gain that a user enters; it makes one count half a tenth of a degree.
 const DISPLAY_GAIN: i32 = 200;
 
 impl Rc2000c {
@@ -98,7 +98,7 @@ impl Rc2000c {
         self.quirks.contains(&Quirk::LeftWords)
     }
 
-    /// Most urgent alarm.
+    /// Returns the most urgent alarm.
     fn alarm(&self) -> Alarm {
         let own = [(&self.azimuth, Alarm::Azimuth), (&self.elevation, Alarm::Elevation)];
         let own = own.into_iter().filter(|(axis, _)| AxisDrive::is_alarm(axis.drive()));
@@ -134,7 +134,7 @@ impl Rc2000c {
     }
 }
 
-/// Azimuth and elevation in tenths of a degree, as the display computes them.
+/// Returns azimuth and elevation in tenths of a degree, as the display computes them.
 fn angles([az_counts, el_counts]: [u16; 2]) -> [i16; 2] {
     let relative = |counts: u16, zero: i32| (i32::from(counts) - zero) * 100 / DISPLAY_GAIN;
     let azimuth = (1800 + relative(az_counts, AZIMUTH_CENTRE)).rem_euclid(3600);

@@ -1,4 +1,4 @@
-//! Commands and faults in any order.
+//! Random sequences of commands and faults.
 
 use proptest::prelude::*;
 
@@ -6,7 +6,7 @@ use super::*;
 use crate::protocol::rc2000c::{Address, Decoder, Frame, Reply, checksum};
 use crate::sim::harness::Unit;
 
-/// The commands that do something, without address and checksum.
+/// Commands with an effect, without address and checksum.
 const COMMANDS: [&str; 22] = [
     "0",
     "1",

@@ -42,7 +42,7 @@ impl Client {
         }
     }
 
-    /// Returns `true` if the unit accepts a request, by the reply that belongs to it.
+    /// Returns `true` if the unit's reply to a request accepts it.
     async fn accepts(&mut self, request: Request) -> bool {
         let expected = match &request {
             Request::Stop => Acknowledgement::Stop,
@@ -88,7 +88,7 @@ fn rotate(rotator: RotatorNumber, direction: Direction) -> Request {
     Request::Motion(Motion::Rotate { rotator, direction })
 }
 
-/// Options with an azimuth and an elevation rotator.
+/// Returns options with an azimuth and an elevation rotator.
 fn both_limits() -> Options {
     Options {
         rotators: [RotatorOptions::default(), RotatorOptions::elevation()],

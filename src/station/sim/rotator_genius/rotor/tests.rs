@@ -1,4 +1,4 @@
-//! Turns in steps of 50 ms.
+//! Tests with turns in steps of 50 ms.
 
 use std::time::Duration;
 
@@ -58,7 +58,7 @@ fn without_a_stop_offset_it_slips_past_the_limit() {
     run(&mut rotor, 10.0);
     assert_eq!(rotor.measured(), Some(angle(272)));
     assert!(rotor.is_outside_limits() && !rotor.is_turning());
-    // From there it goes on without a target, over north and through the arc.
+    // The rotator continues without a target, over north and through the arc.
     assert!(rotor.rotate(Direction::Clockwise));
     run(&mut rotor, 60.0);
     assert_eq!((rotor.moving(), rotor.journey()), (Moving::Clockwise, None));
@@ -68,7 +68,7 @@ fn without_a_stop_offset_it_slips_past_the_limit() {
     let before = rotor.angle_deg();
     run(&mut rotor, 2.0);
     assert!(!rotor.is_turning() && (rotor.angle_deg() - before - 1.9).abs() < 0.01);
-    // It has made more than a turn; the way back is that of the arc.
+    // After more than a turn, the way back still leads through the arc.
     assert!(rotor.go_to(angle(200)));
     assert_eq!(rotor.moving(), Moving::Clockwise);
 }
@@ -82,7 +82,7 @@ fn a_turn_over_north_takes_the_arc_between_the_limits() {
     assert!(angles.iter().all(|angle| !(21.0..309.0).contains(angle)));
     assert_eq!(rotor.measured(), Some(angle(20)));
     assert!(!rotor.go_to(angle(180)));
-    // On a full turn both ends are in the north.
+    // With a full turn, both ends are in the north.
     let mut rotor = self::rotor(350, [360, 0]);
     assert!(rotor.go_to(angle(0)));
     assert_eq!(rotor.moving(), Moving::CounterClockwise);
@@ -169,7 +169,7 @@ fn it_coasts_and_runs_on_as_long_as_it_is_told() {
     let mut rotor = imperfect(Mechanics { coasting, ..Mechanics::default() });
     assert!(rotor.go_to(angle(200)));
     run(&mut rotor, 60.0);
-    // Half of 3 s at 4 degrees a second, from 2 degrees before the target.
+    // The rotator coasts half of 3 s at 4 degrees per second, from 2 degrees before the target.
     assert!((rotor.angle_deg() - 204.0).abs() < 0.3, "{}", rotor.angle_deg());
 
     let minimum_run = Duration::from_secs(2);
@@ -186,7 +186,7 @@ fn play_and_noise_show_in_the_readings() {
     run(&mut rotor, 20.0);
     assert!(rotor.go_to(angle(100)));
     let deg = rotor.angle_deg();
-    // At 4 degrees a second it would have turned by more.
+    // Without play, 4 degrees per second would have changed the angle.
     run(&mut rotor, 1.0);
     assert!((rotor.angle_deg() - deg).abs() < 1e-9);
     run(&mut rotor, 20.0);

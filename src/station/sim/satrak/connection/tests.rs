@@ -21,7 +21,7 @@ use crate::protocol::satrak::{
 use crate::sim::harness::testing;
 use crate::sim::satrak::Options;
 
-/// The ISS in 2008, a published example.
+/// Published elements of the ISS from 2008.
 const ISS: &str = "ISS (ZARYA)
 1 25544U 98067A   08264.51782528 -.00002182  00000-0 -11606-4 0  2927
 2 25544  51.6416 247.4627 0006703 130.5360 325.0288 15.72125391563537

@@ -1,4 +1,4 @@
-//! A driven axis. The ramp is the simulator's own choice.
+//! Driven axis. The ramp is the simulator's own choice.
 
 use crate::{
     protocol::satrak::AxisMotion,
@@ -7,25 +7,25 @@ use crate::{
 
 /// Reading at the zenith, degrees.
 pub(super) const ZENITH_DEG: f64 = 90.0;
-/// Time in which an axis comes to its full rate, seconds.
+/// Time from rest to full rate, seconds.
 pub(super) const RAMP_S: f64 = 1.0;
-/// Distance within which the axis has arrived, degrees.
+/// Max distance from the target at which the axis has arrived, degrees.
 const ARRIVED_DEG: f64 = 0.002;
 
 /// Goal of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Goal {
-    /// Slow down and stand.
+    /// Rest after slowing down.
     Still,
-    /// Run at a rate, degrees per second.
+    /// Motion at a rate, degrees per second.
     Rate(f64),
-    /// Go to an angle and stand there, degrees.
+    /// Motion to an angle in degrees, where the axis rests.
     Angle(f64),
-    /// Stay on a moving angle: degrees, and degrees per second.
+    /// Motion with a moving angle: degrees, and degrees per second.
     Follow(f64, f64),
 }
 
-/// A driven axis.
+/// Driven axis with drive, gear and sensor.
 #[derive(Debug, Clone)]
 pub(in crate::sim::satrak) struct Axis {
     angle_deg: f64,
@@ -43,13 +43,13 @@ pub(in crate::sim::satrak) struct Axis {
     full_rate_deg_s: f64,
     /// Remaining share of the full rate, 0 to 1.
     strength: f64,
-    /// Ratio of the drive's rate to the commanded one.
+    /// Ratio of the drive's rate to the commanded rate.
     drive_scale: f64,
     is_motor_dead: bool,
 }
 
 impl Axis {
-    /// At the zenith, or as near to it as its travel goes.
+    /// Creates an axis at the zenith, or as near to it as its travel permits.
     pub(super) fn parked(
         [lower_deg, upper_deg]: [f64; 2],
         full_rate_deg_s: f64,
@@ -106,12 +106,12 @@ impl Axis {
         self.is_motor_dead = is_dead;
     }
 
-    /// Mechanical angle, degrees.
+    /// Returns the mechanical angle, degrees.
     pub(in crate::sim::satrak) fn angle_deg(&self) -> f64 {
         self.angle_deg
     }
 
-    /// Reading of the sensor minus the angle, degrees.
+    /// Returns the reading of the sensor minus the angle, degrees.
     pub(super) fn error_deg(&self) -> f64 {
         self.sensor.error_deg()
     }
@@ -138,7 +138,7 @@ impl Axis {
         self.dead_time.command(Goal::Still);
     }
 
-    /// Runs until told otherwise, or to the end of the travel.
+    /// Runs until the next command or the end of the travel.
     pub(in crate::sim::satrak) fn run(&mut self, rate_deg_s: f64) {
         let max_rate = self.max_rate_deg_s();
         let rate = (rate_deg_s * self.drive_scale).clamp(-max_rate, max_rate);
@@ -217,10 +217,10 @@ impl Axis {
         self.rate_deg_s != 0.0 && self.minimum_run.must_keep_running()
     }
 
-    /// Fastest rate from which the axis can still halt at `angle_deg`.
+    /// Returns the max rate from which the axis can still stop at `angle_deg`, degrees per second.
     fn approach(&self, angle_deg: f64, step_s: f64) -> f64 {
         let distance = angle_deg - self.angle_deg;
-        // A little less than the ramp, so that the braking never falls behind.
+        // Plan a little less than the ramp, so that the braking never comes too late.
         let brake = 0.9 * self.ramp_deg_s2();
         let half = brake * step_s / 2.0;
         let fastest = (half * half + 2.0 * brake * distance.abs()).sqrt() - half;

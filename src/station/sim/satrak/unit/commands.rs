@@ -1,4 +1,4 @@
-//! Answers to requests, which are carried out at once.
+//! Answers to requests, which the unit carries out at once.
 
 use super::Satrak;
 use crate::astro::AzEl;
@@ -10,7 +10,7 @@ use crate::sim::satrak::mount::xy_from_azel;
 use crate::sim::satrak::tracking::Target;
 
 impl Satrak {
-    /// Answers a frame. Call `advance` first.
+    /// Answers a frame. Must be called after `advance`.
     pub(in crate::sim::satrak) fn answer(&mut self, frame: &Frame) -> Answer {
         let outcome = match Request::parse(frame) {
             Ok(Request::Query(query)) => return self.query(query),
@@ -30,8 +30,8 @@ impl Satrak {
 
     fn halt(&mut self, halt: Halt) {
         match halt {
-            // Tracking stays switched on: the document does not say what happens then, and this
-            // is the worse case.
+            // Tracking stays on: the document does not describe this case, and this is the worse
+            // one.
             Halt::Stop => {
                 self.mount.stop();
                 self.tracking.hold(self.elapsed);
@@ -137,7 +137,7 @@ impl Satrak {
         Ok(())
     }
 
-    /// Looks the satellite up. A missing one becomes a fault, not a refusal: the document has
+    /// Looks up the satellite. A missing satellite becomes a fault, not a refusal: the document has
     /// fields for it.
     fn choose(&mut self, choice: SatelliteChoice, mode: TleMode) {
         if !choice.continue_tracking {

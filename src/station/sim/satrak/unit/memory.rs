@@ -1,16 +1,16 @@
-//! Memory of the unit, with the values of a new one.
+//! Memory of the unit, with the values of a new unit.
 
 use crate::protocol::satrak::{
     AngleChange, AngleSettings, FtpTle, GpsSettingsChange, HttpTle, PositionBase, Reduction,
     SatelliteChoice, Settings, SspaAutoRule, SspaMode, TextValue, TleMode,
 };
 
-/// Degrees per count of the position sensors. The simulator's own choice: 16 bits a turn.
+/// Degrees per count of the position sensors: 16 bits a turn, the simulator's own choice.
 const DEG_PER_COUNT: f64 = 360.0 / 65_536.0;
 /// Reduction at which the drives run as commanded, from the document's example.
 pub(super) const DEFAULT_REDUCTION: f64 = 4000.0;
 
-/// Settings; `None` for those never set.
+/// Settings of the unit; `None` if never set.
 #[derive(Debug, Clone)]
 pub(super) struct Memory {
     pub(super) settings: Settings,
@@ -40,8 +40,8 @@ impl Default for Memory {
                 tle_mode: TleMode::File,
                 elevation_threshold_deg: 2.0,
             },
-            // The angles of the document's example, with the counts that leave the reported
-            // angles as they are.
+            // Use the angles of the document's example, with counts that leave the reported angles
+            // unchanged.
             angles: AngleSettings {
                 x_sensor: counts(160.0),
                 x_deg: 160.0,
@@ -58,18 +58,18 @@ impl Default for Memory {
     }
 }
 
-/// Sensor reading at a mechanical angle in degrees.
+/// Returns the sensor reading at a mechanical angle in degrees.
 fn counts(angle_deg: f64) -> i64 {
     (angle_deg / DEG_PER_COUNT).round() as i64
 }
 
 impl Memory {
-    /// Reported minus mechanical angle of X and Y, degrees.
+    /// Returns the reported minus the mechanical angle of X and Y, degrees.
     pub(super) fn shifts_deg(&self) -> [f64; 2] {
         let AngleSettings { x_sensor, x_deg, y_sensor, y_deg } = self.angles;
         let shift = |angle_deg: f64, sensor: i64| {
             let shift = angle_deg - sensor as f64 * DEG_PER_COUNT;
-            // Less than a count is rounding, not calibration.
+            // A shift of less than a count is rounding, not calibration.
             if shift.abs() < DEG_PER_COUNT { 0.0 } else { shift }
         };
         [shift(x_deg, x_sensor), shift(y_deg, y_sensor)]
@@ -88,7 +88,7 @@ impl Memory {
             AngleSettings { x_sensor, x_deg: angles.x_deg(), y_sensor, y_deg: angles.y_deg() };
     }
 
-    /// Ratios of the drives' rates to the commanded ones.
+    /// Returns the ratios of the drives' rates to the commanded rates.
     pub(super) fn drive_scales(&self) -> [f64; 2] {
         self.reduction.map_or([1.0; 2], |ratio| {
             [DEFAULT_REDUCTION / ratio.x(), DEFAULT_REDUCTION / ratio.y()]

@@ -24,7 +24,7 @@ impl Satrak {
             Query::Satellite => self.satellite(),
             Query::SatelliteHttp => self.satellite_http(),
             Query::SatelliteFtp => self.satellite_ftp(),
-            // The document explains none of its values; zero is most likely "idle".
+            // The document does not explain the values; zero probably means "idle".
             Query::ImageStatus => vec![Value::text(0)],
             Query::Reduction => {
                 let ratio = self.memory.reduction;
@@ -39,7 +39,7 @@ impl Satrak {
 
     fn status(&self) -> Vec<Value> {
         let direction = self.direction();
-        // Rounded first, so that 359.999 becomes 0.00 and not 360.00.
+        // Round first, so that 359.999 becomes 0.00 and not 360.00.
         let az_deg = (direction.azimuth_deg() * 100.0).round() / 100.0 % 360.0;
         let [x_deg, y_deg] = self.last_xy_deg;
         let (x, y) = (&self.mount.x, &self.mount.y);
@@ -192,7 +192,7 @@ impl Satrak {
         vec![
             Value::text(source.address.as_str()),
             Value::text(source.user.as_str()),
-            // A real unit sends it in clear too.
+            // A real unit also sends the password in clear text.
             Value::text(source.password.reveal()),
             Value::text(source.port),
             Value::text(file),
@@ -203,7 +203,7 @@ impl Satrak {
     }
 }
 
-/// Latitude and longitude with their letters.
+/// Returns latitude and longitude with their letters.
 fn place(latitude_deg: f64, longitude_deg: f64) -> Vec<Value> {
     let text = |angle: f64, plus, minus| {
         let letter = if angle < 0.0 { minus } else { plus };

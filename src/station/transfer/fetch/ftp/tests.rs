@@ -8,7 +8,7 @@ use super::*;
 
 const FILE: &[u8] = b"1 25544U\n2 25544\n";
 
-/// Answers of a server to EPSV and PASV; `PORT` and `HIGH,LOW` stand for its port.
+/// Answers of a server to EPSV and PASV; `PORT` and `HIGH,LOW` are placeholders for its port.
 #[derive(Clone, Copy)]
 struct Answers {
     extended: &'static str,

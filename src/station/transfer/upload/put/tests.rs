@@ -1,4 +1,4 @@
-//! Uploads that break at every possible request, in every way a link breaks.
+//! Tests with a failure at every possible request, in every way that a link breaks.
 
 use std::{collections::BTreeMap, time::Duration};
 
@@ -12,7 +12,7 @@ const NEW: &[u8] = b"the new elements, which are longer";
 /// Failure of a request.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Fault {
-    /// The unit refuses and does nothing.
+    /// The unit refuses the request and does nothing.
     Refused,
     /// The link is lost before the request arrives.
     LostBefore,
@@ -22,17 +22,17 @@ enum Fault {
     Cancelled,
 }
 
-/// A folder in memory.
+/// Folder in memory.
 #[derive(Default)]
 struct Memory {
     files: BTreeMap<String, Vec<u8>>,
     can_replace: bool,
-    /// Request that fails, counted from now on, and its failure.
+    /// Index of the failing request, counted from now on, and its failure.
     fault: Option<(usize, Fault)>,
     requested: usize,
     cancel: CancellationToken,
     is_gone: bool,
-    /// The disk corrupts the bytes written.
+    /// `true` if the disk corrupts written bytes.
     corrupts: bool,
 }
 
@@ -89,7 +89,7 @@ impl Folder for Memory {
         tell: Tell<'_>,
     ) -> Result<(), FolderError> {
         assert!(!self.files.contains_key(name), "{name} was not removed first");
-        // Each half is a request of its own, so that one can be lost.
+        // Each half counts as a request, so that one half can be lost.
         let (first, _) = bytes.split_at(bytes.len() / 2);
         self.request(|files| files.insert(name.to_owned(), first.to_vec())).await?;
         tell(first.len() as u64);
@@ -121,7 +121,7 @@ impl Folder for Memory {
     }
 }
 
-/// Uploads [`NEW`]; also returns the kept old file.
+/// Uploads [`NEW`]. Returns the result and the kept old file.
 async fn put(folder: &mut Memory) -> (Result<(), UploadError>, Option<Vec<u8>>) {
     let mut previous = None;
     let cancel = folder.cancel.clone();
@@ -170,7 +170,7 @@ async fn whatever_breaks_the_old_file_is_not_lost_and_the_next_upload_mends_all(
                     }
                     let case = format!("{can_replace} {fault:?} {index}");
                     match result {
-                        // Too late to cancel, or only the last tidying failed.
+                        // The cancel came too late, or only the last cleanup failed.
                         Ok(()) => assert_eq!(folder.holds(FILE), Some(NEW), "{case}"),
                         Err(error) => {
                             broken += 1;
@@ -221,7 +221,7 @@ async fn what_reads_back_as_something_else_never_takes_the_old_file_s_place() {
 
 #[tokio::test]
 async fn what_reads_back_as_something_else_in_its_place_is_no_proof() {
-    // Someone else writes the file at the moment it takes its place.
+    // Another program writes the file at the moment of its replacement.
     struct Crowded(Memory);
     impl Folder for Crowded {
         async fn read(

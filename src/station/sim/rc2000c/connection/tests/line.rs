@@ -1,4 +1,4 @@
-//! Every command, the panel, and failures of the line.
+//! Tests of every command, the panel, and failures of the line.
 
 use super::*;
 use crate::protocol::rc2000c::{
@@ -156,7 +156,7 @@ async fn each_fault_of_the_line_does_as_it_says() {
             client.send(POLL).await;
             let frame = client.receive().await;
             whole += usize::from(matches!(frame, Some(Ok(_))));
-            // The rest of a broken frame, up to the quiet of the line.
+            // Skip the rest of a broken frame, until the line is quiet.
             while client.receive().await.is_some() {}
             client.decoder.line_is_quiet();
         }

@@ -1,4 +1,4 @@
-//! Motion by a client's requests.
+//! Tests of motion by a client's requests.
 
 use super::*;
 use crate::protocol::rc2000c::{
@@ -25,7 +25,7 @@ async fn a_jog_ends_by_itself_and_the_axis_runs_out_untold() {
     let status = client.status_after(jog(Direction::CounterClockwise, Speed::Fast, 800)).await;
     assert_eq!(status.azimuth_drive, AxisDrive::Moving(Sense::Negative));
     drop(client);
-    // Rounded up to 900 ms.
+    // The unit rounds the 800 ms of the jog up to 900 ms.
     seconds(0.9).await;
     let mut client = Client::attached(&control);
     let status = client.status().await;

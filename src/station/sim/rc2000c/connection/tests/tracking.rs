@@ -1,4 +1,4 @@
-//! Track mode, entered by an auto move to an inclined satellite.
+//! Tests of track mode, entered by an auto move to an inclined satellite.
 
 use super::*;
 use crate::protocol::rc2000c::{

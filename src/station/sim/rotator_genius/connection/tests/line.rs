@@ -1,4 +1,4 @@
-//! Effects of the line on commands and replies.
+//! Tests of the line's effects on commands and replies.
 
 use super::*;
 

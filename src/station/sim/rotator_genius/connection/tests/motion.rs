@@ -1,4 +1,4 @@
-//! Motion and configuration by a client's requests.
+//! Tests of motion and configuration by a client's requests.
 
 use super::*;
 
@@ -48,7 +48,7 @@ async fn outside_the_limits_only_stop_ends_a_rotation_and_its_client_may_leave()
     let rotator = client.rotator(ONE).await;
     assert_eq!((rotator.moving, rotator.target), (Moving::CounterClockwise, None));
     drop(client);
-    // Through the whole arc and beyond its other end.
+    // The rotator turns through the whole arc and beyond its other end.
     seconds(60).await;
     let state = *control.state().rotator(ONE);
     assert!(state.is_turning && state.is_outside_limits && state.angle_deg > 90.0, "{state:?}");
@@ -134,7 +134,7 @@ async fn a_configuration_is_read_back_with_a_shorter_name() {
         ..before
     };
     assert_eq!(after, expected);
-    // With no stop offset it slips past the limit.
+    // Without a stop offset, the rotator slips past the limit.
     assert!(client.accepts(rotate(ONE, Direction::Clockwise)).await);
     seconds(60).await;
     let rotator = client.rotator(ONE).await;

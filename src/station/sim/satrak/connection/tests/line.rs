@@ -1,4 +1,4 @@
-//! Every command, and failures of the line.
+//! Tests of every command, and of failures of the line.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! Motion by a client's requests.
+//! Tests of motion by a client's requests.
 
 use super::*;
 
@@ -48,7 +48,7 @@ async fn a_goto_arrives_and_a_step_turns_by_its_amount() {
         .separation(AzEl::from_degrees(125.1, 32.6))
         .degrees();
     assert!(error < 0.02 && !status.is_moving(), "{status:?}");
-    // 90 degrees more than on a mount that counts from the zenith.
+    // The angles are 90 degrees larger than on a mount that counts from the zenith.
     assert!((status.x_deg - 142.0).abs() < 0.11 && (status.y_deg - 61.0).abs() < 0.11);
     client.done("GOTO=,NONE,60.5").await;
     seconds(30).await;

@@ -1,8 +1,8 @@
-//! Tracking, elements and the clock.
+//! Tests of tracking, elements and the clock.
 
 use super::*;
 
-/// A pass high enough to be worth tracking, and low enough for an X/Y mount.
+/// Returns a pass that is high enough for a test, and low enough for an X/Y mount.
 fn iss_pass() -> Pass {
     let propagator = Propagator::new(&iss()).unwrap();
     let start = iss().epoch();
@@ -22,7 +22,7 @@ fn window(start: Timestamp, stop: Timestamp) -> String {
     format!("START_STOP_TIME=,{},{}", text(start), text(stop))
 }
 
-/// A unit 90 seconds before a pass, with the order to track it.
+/// Returns a unit that is ready to track a pass in 90 seconds.
 async fn before_pass() -> (Client, Control, Pass) {
     let pass = iss_pass();
     let (mut client, control) = Client::new(&options(time::add_seconds(pass.aos.time, -90.0)));
@@ -52,7 +52,7 @@ async fn tracking_follows_the_satellite_through_the_window() {
             let expected = propagator.look_from(site().airless(), time).unwrap().direction;
             let error =
                 AzEl::from_degrees(snapshot.az_deg, snapshot.el_deg).separation(expected).degrees();
-            // The set-up took a few replies, a fraction of a second.
+            // The set-up replies took a fraction of a second.
             assert!(error < 0.2, "{error} at {time}");
             samples += 1;
         }
