@@ -1,8 +1,7 @@
-//! The window's shell: it draws the state of its station and carries out the commands of
-//! the views.
+//! Shell of the window, which draws the station's state and carries out the commands of the views.
 //!
-//! Invariants: this thread never blocks and never does I/O; views change nothing, they
-//! queue [`UiCommand`]s.
+//! Invariants: this thread never blocks and never does I/O; views change nothing, they queue
+//! [`UiCommand`]s.
 
 mod carry_out;
 mod catalog_table;
@@ -54,20 +53,20 @@ use crate::{
 /// Interval between frames while an antenna moves.
 const MOVING_FRAME: Duration = Duration::from_millis(100);
 
-/// Interval between frames while the record is played.
+/// Interval between frames while a replay plays.
 const REPLAY_FRAME: Duration = Duration::from_millis(50);
 
-/// The app behind the window.
+/// App that shows one station in the window.
 pub struct App {
     model: Model,
     views: ui::Views,
     station: Handle,
     /// Settings of the station in the window.
     settings: Settings,
-    /// Folder of the list of stations, and of new ones.
+    /// Folder of the station list and of new station files.
     stations_folder: Option<PathBuf>,
     outside: Outside,
-    /// The station in the window, for the signals of the operating system.
+    /// Client of the station in the window; the signal handlers send STOP through it.
     client: Arc<Mutex<Client>>,
     clock: Clock,
     wake: Wake,
@@ -81,34 +80,34 @@ pub struct App {
     open_work: OpenWork,
     known_work: KnownWork,
     rehearsal_work: RehearsalWork,
-    /// The record shown again; `None` while the live station is shown.
+    /// Replay of the record; `None` while the window shows the live station.
     replay: Option<Replay>,
-    /// The change to another station.
+    /// Pending change to another station.
     change: Option<Change>,
     keeper: Keeper,
     place_watch: PlaceWatch,
-    /// The set-up opens automatically where there is no station.
+    /// Permission to open the set-up view when the demo station appears.
     opens_set_up: bool,
-    /// `None` where Azel reports nothing to the desktop.
+    /// Desktop notifier; `None` if Azel reports nothing to the desktop.
     notifier: Option<Notifier>,
     /// The attention last reported to the station.
     attention: contract::Attention,
-    /// Everything to be done before closing is done.
+    /// Flag: the work before closing is done.
     closes: bool,
-    /// The operator or the operating system has decided to close: no question is asked.
+    /// Flag: the operator or the operating system decided to close, so Azel asks no question.
     may_close: Arc<AtomicBool>,
-    /// The operating system ends the program: nobody can be asked.
+    /// Flag: the operating system ends the program, so nobody can answer a question.
     told_to_end: Arc<AtomicBool>,
-    /// Tells the station's waker that frames come at the pace of [`MOVING_FRAME`].
+    /// Flag for the station's waker: frames come at the pace of [`MOVING_FRAME`].
     is_lively: Arc<AtomicBool>,
-    /// Tells the event loop that an antenna is jogged.
+    /// Flag for the event loop: an antenna is jogged.
     is_jogging: Arc<AtomicBool>,
     drawn: bool,
 }
 
 impl App {
-    /// Creates the app in a new window, on the station that `settings` name. The station takes
-    /// its clock and links from `outside`; the window knows it by its handle alone.
+    /// Creates the app in a new window, on the station that `settings` names. The station takes its
+    /// clock and links from `outside`; the window holds only the station's handle.
     pub fn new(
         ctx: &egui::Context,
         settings: &Settings,
@@ -139,7 +138,7 @@ impl App {
         let (log_work, mask_work) = (LogWork::new(library.clone()), MaskWork::new(library));
         let mut model = Model::before_anything(clock.now());
         (model.list, model.view) = (keeper.memory.list, keeper.memory.view);
-        // The list outlives the folder that the program was started in.
+        // Store the absolute path: the list outlives the working directory of this run.
         let whole = |path: PathBuf| std::path::absolute(&path).unwrap_or(path);
         model.stations.open = settings.station_path().map(whole);
         let folder = model.stations.open.as_deref().and_then(Path::parent).map(Path::to_path_buf);
@@ -181,7 +180,7 @@ impl App {
         }
     }
 
-    /// Tells alarms and reminders to the desktop of this session, too.
+    /// Reports alarms and reminders to the desktop of this session, too.
     pub fn with_notifier(mut self) -> io::Result<Self> {
         let station = self.station.client().clone();
         self.notifier = Some(Notifier::start(station, Desktop::default(), Arc::clone(&self.wake))?);
@@ -199,12 +198,12 @@ impl App {
         &self.model
     }
 
-    /// The model of the replay, while one is shown.
+    /// Returns the model of the replay, or `None` while no replay is shown.
     pub fn replay(&self) -> Option<&Model> {
         self.replay.as_ref().map(Replay::model)
     }
 
-    /// The station behind the window.
+    /// Returns the handle on the station behind the window.
     pub fn station(&self) -> &Handle {
         &self.station
     }
@@ -215,7 +214,7 @@ impl App {
         self.work_on_change();
         let now = self.clock.now();
         (self.model.now, self.model.steady) = (now.utc, now.steady);
-        // Events refer to state that is published by then.
+        // Take the events first: the snapshot taken after them holds the state that they refer to.
         let events: Vec<_> = std::iter::from_fn(|| self.station.next_event()).collect();
         if self.station.take() {
             let before: Vec<_> = self.model.antennas.iter().map(AntennaModel::id).collect();
@@ -275,7 +274,7 @@ impl App {
         }
     }
 
-    /// Uses the theme for this time of day, and the scale.
+    /// Applies the zoom and the theme for the current elevation of the Sun.
     fn appear(&mut self, ctx: &egui::Context) {
         let appearance = self.keeper.memory.appearance;
         self.model.appearance = appearance;
@@ -283,7 +282,7 @@ impl App {
         if ui::theme::name(ctx) != theme {
             ui::theme::set(ctx, theme);
         }
-        // In whole pixels, so that the zoom does not change by what it is computed from.
+        // Round to whole pixels: the view size depends on the current zoom but must not change it.
         let pixels = (ctx.content_rect().size() * ctx.pixels_per_point()).round();
         let view = pixels / ctx.native_pixels_per_point().unwrap_or(1.0);
         ctx.set_zoom_factor(appearance.zoom(view.into()));
@@ -300,18 +299,19 @@ impl App {
         self.keeper.keep(&self.wake);
     }
 
-    /// Returns `true` once, when the window closes now without a question.
+    /// Returns `true` once, in the frame in which the window may close without a question.
     fn closes_now(&mut self) -> bool {
         if !self.station.runs() && !self.is_between_stations() {
-            // Nothing is shown any more. The sessions carry the STOP out while they end.
+            // Stop all antennas: the window shows nothing any more. The sessions send STOP while
+            // they end.
             self.station.client().stop_all();
             std::panic::resume_unwind(Box::new("the station broke down".to_owned()));
         }
         std::mem::take(&mut self.closes) && !self.may_close.swap(true, Ordering::Relaxed)
     }
 
-    /// Schedules the next frame: ten per second while metal moves or a key is held, otherwise on
-    /// the full second. News request a frame of their own.
+    /// Schedules the next frame: after at most 100 ms while an antenna moves or is jogged, after at
+    /// most 50 ms in a playing replay, otherwise on the full second. News request their own frames.
     fn schedule_repaint(&self, ctx: &egui::Context) {
         let shown = || self.model.antennas.iter().map(|antenna| &antenna.snapshot);
         let jogs = shown().any(|snapshot| snapshot.jog.is_some());
@@ -326,20 +326,19 @@ impl App {
         let wait = if lively { MOVING_FRAME.min(to_next) } else { to_next };
         let plays = self.replay.as_ref().is_some_and(Replay::plays);
         let wait = if plays { REPLAY_FRAME.min(wait) } else { wait };
-        // If a frame comes slightly before the full second, the wait would be zero again and
-        // again.
+        // Min wait: shortly before the full second, the wait would be almost zero in many frames.
         let wait = wait.max(Duration::from_millis(5));
         ctx.request_repaint_after_for(wait, egui::ViewportId::ROOT);
     }
 }
 
-/// Ends every jog with a STOP on the wire before the window is gone.
+/// Sends STOP for every jog before the window is gone.
 impl Drop for App {
     fn drop(&mut self) {
         if self.told_to_end.load(Ordering::Relaxed) {
             self.station.end_unasked();
         }
-        // The sessions end while the last change is written.
+        // The sessions end in parallel with the write of the last change.
         self.station.begin_end();
         self.remember();
         self.keeper.finish(&self.wake);
@@ -358,15 +357,15 @@ impl eframe::App for App {
         self.schedule_repaint(ctx);
     }
 
-    /// The background of the panels: cleared instead of painted, which saves a software renderer
-    /// most of the filling.
+    /// Returns the background of the panels. Clearing with it instead of painting saves a software
+    /// renderer most of the filling.
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
         visuals.panel_fill.to_normalized_gamma_f32()
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         tracing::trace!(causes = ?ui.repaint_causes(), "frame");
-        // STOP comes before any other input of the frame, whatever is open or focused.
+        // Handle STOP before all other input of the frame, whatever is open or focused.
         let stop = ui.input(|input| input.key_pressed(egui::Key::Escape));
         if stop {
             self.stop_all();
@@ -405,7 +404,7 @@ impl eframe::App for App {
         for command in commands {
             self.carry_out(command, ui.ctx());
         }
-        // Asked now, the station answers before the next frame.
+        // Report now, so that the station answers before the next frame.
         self.look();
     }
 }

@@ -107,8 +107,8 @@ enum Command {
 }
 
 impl Cli {
-    /// Filter of the log unless `AZEL_LOG` sets another: warnings and errors; for a simulator
-    /// also its address and every frame.
+    /// Returns the log filter for runs without `AZEL_LOG`: warnings and errors. A simulator also
+    /// logs its address and every frame.
     pub fn log_filter(&self) -> Targets {
         let warnings = Targets::new().with_default(LevelFilter::WARN);
         match self.command {
@@ -189,13 +189,13 @@ fn reported(result: anyhow::Result<ExitCode>) -> anyhow::Result<ExitCode> {
     })
 }
 
-/// Folder for marks of motions by hand, in the user's data folder.
+/// Returns the folder in the user's data folder for marks of manual motions.
 fn marks() -> Option<PathBuf> {
     directories::ProjectDirs::from("", "", "azel").map(|dirs| dirs.data_dir().join("marks"))
 }
 
-/// Path of this program. On Linux it stays valid after the file was replaced by a newer
-/// one.
+/// Returns the path of this program. On Linux it stays valid after a newer file replaced the
+/// program.
 fn this_program() -> Option<PathBuf> {
     let running = PathBuf::from("/proc/self/exe");
     if running.exists() { Some(running) } else { std::env::current_exe().ok() }
@@ -205,7 +205,7 @@ fn this_program() -> Option<PathBuf> {
 fn from_hexadecimal(digits: &str) -> Option<Vec<u8>> {
     let pairs = digits.as_bytes().chunks(2);
     let byte = |pair: &[u8]| match pair {
-        // Only hexadecimal digits: the parser accepts a sign too.
+        // Accept only hexadecimal digits: the parser also accepts a sign.
         [first, _] if first.is_ascii_hexdigit() => {
             u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok()
         }

@@ -1,8 +1,9 @@
 //! Azel: the console of a satellite ground station.
 //!
-//! This package holds the shell of the window, [`app`], and the command line, [`cli`]. The packages
-//! below stand in `src/orbit`, `src/units`, `src/contract`, `src/station` and `src/window`, and their
-//! parts can be named from here too. `docs/architecture.md` holds the picture and the invariants.
+//! This package holds the shell of the window, [`app`], and the command line, [`cli`]. It
+//! re-exports the parts of the packages below, which stand in `src/orbit`, `src/units`,
+//! `src/contract`, `src/station` and `src/window`. `docs/architecture.md` holds the picture and the
+//! invariants.
 
 pub mod app;
 pub mod cli;

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use azel::cli::{Cli, log::Log};
 use clap::Parser as _;
 
-/// The error with its causes. Some errors already hold the words of their cause.
+/// Formats the error with its causes. Skips a cause that the text already holds.
 fn in_words(error: &anyhow::Error) -> String {
     error.chain().map(ToString::to_string).fold(String::new(), |text, cause| {
         if text.is_empty() {
@@ -23,7 +23,7 @@ fn main() -> ExitCode {
     let log = match Log::start(cli.log_filter()) {
         Ok(log) => log,
         Err(error) => {
-            // Without a log there is nothing better to report it with.
+            // Without a log, standard error is the only way to report this.
             #[allow(clippy::print_stderr)]
             {
                 eprintln!("The log could not be started: {error}");

@@ -1,4 +1,4 @@
-//! Carries out the commands of the views.
+//! Execution of the commands of the views.
 
 use std::sync::atomic::Ordering;
 
@@ -11,21 +11,22 @@ use crate::{
 };
 
 impl App {
-    /// Sends STOP past every queue, to every antenna that it concerns.
+    /// Sends STOP past every queue to each antenna that STOP concerns, and leaves a replay.
     pub(super) fn stop_all(&mut self) {
         let stopped = self.station.client().stop_all();
         self.leave_replay(Some(ReplayEnd::Stop));
         self.show_stopped(&stopped);
     }
 
-    /// Sends STOP past every queue, also to a unit that must be connected for it.
+    /// Sends STOP past every queue to one antenna, even if Azel must connect to its unit first.
+    /// Leaves a replay.
     pub(super) fn stop_one(&mut self, antenna: AntennaId) {
         let stopped = self.station.client().stop(antenna);
         self.leave_replay(Some(ReplayEnd::Stop));
         self.show_stopped(&stopped);
     }
 
-    /// Shows STOP as pressed from this frame on.
+    /// Marks STOP as pressed from this frame on.
     fn show_stopped(&mut self, stopped: &Stopped) {
         let antennas = self.model.shown_mut().antennas.iter_mut();
         for antenna in
@@ -47,7 +48,7 @@ impl App {
             UiCommand::SelectPass(key) => model.choose_pass(key),
             UiCommand::BeginReplay(stretch, time) => self.begin_replay(stretch, time),
             UiCommand::CloseReplayEnd => model.replay_end = None,
-            // The views have asked, or there is nothing to track it with; there is no replay.
+            // The views handle `AskToTrack` or have no antenna for it; the other two need a replay.
             UiCommand::AskToTrack(_) | UiCommand::Replay(_) | UiCommand::LeaveReplay => {}
             UiCommand::SelectSatellite(number) => {
                 if let Some(pass) = model.pass_of(number).map(PredictedPass::key) {
@@ -123,7 +124,7 @@ impl App {
     fn send(&mut self, command: Command) {
         let Err(command) = self.station.client().send(command) else { return };
         tracing::error!(?command, "the station is too busy to take a command");
-        // A command that ends a motion must not get lost: stop instead.
+        // A lost command must not leave a motion running: send STOP instead.
         if let Command::Antenna(id, driver::Command::Standby | driver::Command::EndJog) = command {
             let stopped = self.station.client().stop(id);
             self.show_stopped(&stopped);

@@ -1,4 +1,4 @@
-//! Works out the table of the catalog and the next passes in it, on threads.
+//! Work on the catalog table and on the next passes in it, on threads.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::{
     },
 };
 
-/// The work under way, with what it was begun for.
+/// Running jobs, each with the inputs that it started with.
 #[derive(Default)]
 pub(super) struct CatalogWork {
     rows: Option<(Inputs, Option<Job<Answer>>)>,
@@ -22,12 +22,12 @@ pub(super) struct CatalogWork {
 }
 
 impl CatalogWork {
-    /// Brings the table up to date while it is shown.
+    /// Updates the table while the Elements view shows it.
     pub(super) fn work(&mut self, model: &mut Model, wake: &Wake) {
         self.take(model);
         let CatalogState::Ready(catalog) = &model.catalog else { return };
         if model.view != View::Elements {
-            // Replaced jobs are cancelled.
+            // Dropping a job cancels it.
             *self = Self::default();
             return;
         }
@@ -69,7 +69,7 @@ impl CatalogWork {
 
     fn take(&mut self, model: &mut Model) {
         let table = &mut model.catalog_table;
-        // Work that broke off stays noted: the same would break off again.
+        // Keep the inputs of work that broke off: the same work would break off again.
         if let Some((_, job)) = &mut self.rows
             && let Some(Ok(answer)) = Job::take(job)
         {

@@ -1,6 +1,6 @@
-//! Changes the station of the window. The file of the next station is looked at first, and a
-//! station that cannot be opened changes nothing. Then the operator is asked what closing the
-//! window would ask; the old station ends, and the next one begins.
+//! Change of the window's station. Azel reads the file of the next station first; a station that
+//! cannot be opened changes nothing. Azel then asks the operator the same questions as before
+//! closing the window. The old station ends before the next one starts.
 
 use std::{
     io,
@@ -18,27 +18,27 @@ use crate::{
     station, ui,
 };
 
-/// A station that can be opened.
+/// Station that the window can open.
 pub(super) struct Target {
     name: String,
     settings: Settings,
     opens_set_up: bool,
 }
 
-/// Why a station that was chosen is not opened.
+/// Reason why Azel does not open the chosen station.
 pub(super) struct Refused {
     path: PathBuf,
     cannot_open: CannotOpen,
 }
 
-/// How far a change of the station has got.
+/// Progress of a change of the station.
 pub(super) enum Change {
     Looking(Job<Result<Target, Refused>>),
-    /// The operator is to be asked.
+    /// Station that can be opened, before Azel asks the operator.
     Found(Target),
-    /// The operator is asked, or the antennas are brought to rest.
+    /// Station that waits for the operator's answer, or until the antennas are at rest.
     Asked(Target),
-    /// The old station ends.
+    /// Station that waits for the end of the old station.
     Ending(Target),
     Starting {
         job: Job<io::Result<(Handle, Keeper)>>,
@@ -48,8 +48,8 @@ pub(super) enum Change {
 }
 
 impl App {
-    /// Keeps the list of stations, and files of new ones, in `folder` instead of the folder of the
-    /// present one.
+    /// Keeps the station list and new station files in `folder` instead of the current station's
+    /// folder.
     #[must_use]
     pub fn with_stations_in(mut self, folder: PathBuf) -> Self {
         (self.known_work, self.model.stations.stations) = KnownWork::new(Some(&folder));
@@ -57,7 +57,7 @@ impl App {
         self
     }
 
-    /// Looks at the station that the operator has chosen.
+    /// Starts to read the chosen station, unless the old station is already ending or has ended.
     pub(super) fn choose_station(&mut self, next: NextStation) {
         if self.is_between_stations() {
             return;
@@ -68,7 +68,7 @@ impl App {
             Some(Change::Looking(Job::start("azel-station-look", Arc::clone(&self.wake), work)));
     }
 
-    /// Takes the change as far as it goes by itself.
+    /// Advances the change up to the next decision of the operator.
     pub(super) fn work_on_change(&mut self) {
         self.change = match self.change.take() {
             Some(Change::Looking(job)) => self.take_look(job),
@@ -109,7 +109,7 @@ impl App {
         None
     }
 
-    /// Asks what the change would cost, once the next station can be opened.
+    /// Asks about the consequences of the change, once the next station can be opened.
     pub(super) fn ask_before_change(&mut self, commands: &mut Vec<UiCommand>) {
         self.change = match self.change.take() {
             Some(Change::Found(target)) => {
@@ -124,8 +124,8 @@ impl App {
         };
     }
 
-    /// The operator agrees, and the antennas are at rest as they were wanted. Returns whether a
-    /// change was waiting for that.
+    /// Ends the old station after the operator agreed and the antennas came to rest. Returns `true`
+    /// if a change was waiting for that.
     pub(super) fn change_now(&mut self) -> bool {
         match self.change.take() {
             Some(Change::Asked(target)) => {
@@ -139,7 +139,7 @@ impl App {
         }
     }
 
-    /// The station in the window stays.
+    /// Cancels the change, unless the old station is already ending or has ended.
     pub(super) fn stay(&mut self) {
         if !self.is_between_stations() {
             self.change = None;
@@ -148,7 +148,8 @@ impl App {
         self.model.stations.refused = None;
     }
 
-    /// There is no station in the window that could be asked anything.
+    /// Returns `true` while the old station ends or the next one starts: no station can answer
+    /// then.
     pub(super) fn is_between_stations(&self) -> bool {
         matches!(self.change, Some(Change::Ending(_) | Change::Starting { .. }))
     }
@@ -174,7 +175,7 @@ impl App {
         Change::Starting { job, settings, opens_set_up }
     }
 
-    /// Puts a station that has begun into the window.
+    /// Puts a started station into the window.
     fn use_station(&mut self, station: Handle, keeper: Keeper, settings: Settings) {
         // No code panics while it holds the lock.
         *self.client.lock().unwrap_or_else(PoisonError::into_inner) = station.client().clone();
@@ -203,7 +204,7 @@ impl App {
         }
     }
 
-    /// Keeps the station in the window at the head of the list.
+    /// Keeps the station in the window at the head of the list. The list omits the demo station.
     pub(super) fn note_station(&mut self) {
         if self.model.demo {
             return;
@@ -234,7 +235,7 @@ fn look(next: NextStation, settings: Settings, folder: Option<&Path>) -> Result<
     }
 }
 
-/// Without a station there is nothing to show, and nothing to stop.
+/// Panics: without a station Azel has nothing to show and nothing to stop.
 fn broke_down(reason: &str) -> ! {
     std::panic::resume_unwind(Box::new(format!("the station did not start: {reason}")))
 }

@@ -1,4 +1,4 @@
-//! Computes the effects of edited settings on the passes, on a thread.
+//! Effects of edited settings on the passes, computed on a thread.
 
 use std::sync::Arc;
 
@@ -35,7 +35,7 @@ impl EffectsJobs {
     }
 }
 
-/// Takes a finished answer, and begins the work on a question that waits for one.
+/// Takes a finished answer and starts to answer the pending question.
 fn work<Q: Compare>(
     effects: &mut Effects<Q>,
     begun: &mut Option<EffectsJob<Q>>,
@@ -54,7 +54,7 @@ fn work<Q: Compare>(
     };
     match end {
         Some(Ok(effect)) => effects.effect = Some(effect),
-        // The same question would fail again.
+        // Drop the question: it would fail again.
         Some(Err(_)) => effects.requested = None,
         None => {}
     }

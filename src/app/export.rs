@@ -1,4 +1,4 @@
-//! Saves what the operator exports to a file named in the dialog of the desktop, on a thread.
+//! Exports to a file that the operator names in the desktop's dialog, on a thread.
 
 #[cfg(test)]
 mod tests;
@@ -43,9 +43,9 @@ use crate::{
     whole_file,
 };
 
-/// Seconds between two look angles, the smallest first.
+/// Steps between two look angles, seconds, smallest first.
 const STEPS_S: [f64; 3] = [1.0, 10.0, 60.0];
-/// Most rows of a table of look angles, unless the largest step takes more.
+/// Max rows in a table of look angles; only the largest step may exceed it.
 const MAX_ROWS: f64 = 3600.0;
 
 /// Result of a request to save a file.
@@ -53,14 +53,14 @@ const MAX_ROWS: f64 = 3600.0;
 enum Outcome {
     Saved(SavedFile),
     Cancelled,
-    /// The operator has to type the path.
+    /// Request for a typed path.
     AsksForPath(PathRequest),
 }
 
-/// Asks for a file to save, with a title and a name; `None` after Cancel.
+/// Dialog that asks for a file to save, from a title and a name; `None` after Cancel.
 type SaveDialog = fn(&str, &str) -> Result<Option<PathBuf>, NoDialog>;
 
-/// Saves one file at a time.
+/// Job that saves one file at a time.
 pub(super) struct ExportWork {
     job: Option<Job<Result<Outcome, String>>>,
     dialog: SaveDialog,
@@ -72,13 +72,13 @@ impl Default for ExportWork {
     }
 }
 
-/// Export to write, with all that it takes.
+/// Export to write, with all the data that it needs.
 struct Order {
     export: Export,
     catalog: CatalogState,
     lists: PassLists,
     recorded: Option<Arc<Recorded>>,
-    /// The file of the record.
+    /// Path of the record.
     record: Option<PathBuf>,
     schedule: Arc<Planned>,
     station: Arc<Station>,
@@ -87,7 +87,7 @@ struct Order {
 }
 
 impl App {
-    /// Saves and opens files as on a desktop that shows no dialogs.
+    /// Makes the app save and open files as on a desktop without dialogs.
     #[must_use]
     pub fn without_file_dialogs(mut self) -> Self {
         self.export_work.dialog = |_, _| Err(NoDialog);
@@ -95,8 +95,7 @@ impl App {
         self
     }
 
-    /// Writes the file to the typed path, or to that of the dialog, unless another one is being
-    /// written.
+    /// Writes the file to the typed path or to the dialog's path, unless another save is running.
     pub(super) fn save_export(&mut self, export: Export, typed: Option<TypedPath>) {
         if self.export_work.job.is_some() {
             let reason = "another file is being saved; its dialog may be behind this window";
@@ -122,7 +121,7 @@ impl App {
         self.export_work.job = Some(Job::start("azel-export", Arc::clone(&self.wake), work));
     }
 
-    /// Takes the result of the thread.
+    /// Takes the result of the export thread.
     pub(super) fn take_export(&mut self) {
         let Some(end) = Job::take(&mut self.export_work.job) else { return };
         match end.unwrap_or_else(|broke_off| Err(broke_off.to_string())) {
@@ -135,8 +134,8 @@ impl App {
 }
 
 impl Order {
-    /// Saves to the file of the dialog. Without a dialog, a name in the folder of `documents` is
-    /// proposed.
+    /// Saves to the path from the dialog. Without a dialog, proposes a name in the folder that
+    /// `documents` returns.
     fn save(
         &self,
         dialog: impl FnOnce(&str, &str) -> Result<Option<PathBuf>, NoDialog>,
@@ -169,13 +168,13 @@ impl Order {
         }
     }
 
-    /// Saves to a path that was typed, or asks for it again.
+    /// Saves to a typed path, or asks for the path again.
     fn save_as(&self, typed: TypedPath) -> Result<Outcome, String> {
         let TypedPath { path, replaces } = typed;
         let reason = if let Some(reason) = unusable(&path) {
             reason
         } else if !path.parent().is_some_and(Path::is_dir) {
-            // Otherwise a mistyped folder would be created.
+            // Refuse a missing folder, or Azel would create a mistyped one.
             "there is no such folder"
         } else if !replaces && path.exists() {
             return Ok(self.ask_for_path(path, true, "this file exists already".to_owned()));
@@ -196,7 +195,7 @@ impl Order {
         Outcome::AsksForPath(PathRequest { purpose, path, reason })
     }
 
-    /// The name that the dialog offers.
+    /// Returns the file name that the dialog offers.
     fn name(&self) -> String {
         let stamp = |time: Timestamp| time.strftime("%Y%m%dT%H%MZ").to_string();
         match &self.export {
@@ -233,7 +232,7 @@ impl Order {
         }
     }
 
-    /// The text of the file, and the number of objects that it cannot hold.
+    /// Returns the text of the file, and the number of objects that the file format cannot hold.
     fn text(&self) -> Result<(Vec<u8>, usize), String> {
         let mut text = Vec::new();
         let mut left_out = 0;
@@ -257,7 +256,7 @@ impl Order {
         Ok((text, left_out))
     }
 
-    /// The pass of the record that is shown.
+    /// Returns the opened pass of the record.
     fn opened(&self) -> Option<&OpenedPass> {
         self.recorded.as_ref()?.found.as_ref().ok()?.opened.as_ref()
     }
@@ -272,7 +271,7 @@ impl Order {
         })
     }
 
-    /// The recorded passes that `query` finds of these days, in order of time.
+    /// Returns the recorded passes from `first` to `last` that match `query`, in order of time.
     fn passes_of(
         &self,
         query: &contract::record::PassQuery,
@@ -292,7 +291,7 @@ impl Order {
         Ok(passes)
     }
 
-    /// Returns the number of objects that the form cannot hold.
+    /// Writes the elements; returns the number of objects that the form cannot hold.
     fn write_elements(
         &self,
         numbers: &[u32],
@@ -328,7 +327,7 @@ impl Order {
         in_words(list.write(out, format, exported(&found, &satellites)))
     }
 
-    /// The search that found the listed passes.
+    /// Returns the search that found the listed passes.
     fn query(&self) -> PassQuery {
         let station = &self.station;
         let hours = jiff::SignedDuration::from_hours(i64::from(self.span_h));
@@ -338,7 +337,7 @@ impl Order {
             floor: station.elevation_floor(),
             ..PassSearch::new(station.site, self.now, end)
         };
-        // The mask moves no AOS in a list.
+        // The AOS times of a pass list ignore the mask.
         PassQuery { search, mask: None }
     }
 
@@ -361,7 +360,7 @@ impl Order {
             .frequencies
             .iter()
             .filter(|frequency| frequency.satellite == predicted.number());
-        // The table has one column of Doppler shifts.
+        // The table has a single Doppler column, so only a single frequency can fill it.
         let carrier_hz = match (carriers.next(), carriers.next()) {
             (Some(only), None) => Some(only.mhz * 1e6),
             _ => None,
@@ -435,7 +434,7 @@ impl Order {
     }
 }
 
-/// The satellites of `passes` by catalog number.
+/// Returns the satellites of `passes` by catalog number.
 fn satellites(passes: &[&PredictedPass]) -> Result<BTreeMap<u32, Satellite>, String> {
     let mut satellites = BTreeMap::new();
     for predicted in passes {
@@ -463,7 +462,7 @@ fn write_days(passes: &[OpenedPass], format: RowFormat, out: &mut Vec<u8>) -> Re
     })
 }
 
-/// The reason of a failure in the words of the system.
+/// Converts an I/O error to the text of the system.
 fn in_words<T>(written: io::Result<T>) -> Result<T, String> {
     written.map_err(|error| error.to_string())
 }

@@ -1,4 +1,4 @@
-//! Opens folders in the file manager of the desktop, on a thread.
+//! Folders that the desktop's file manager opens, on a thread.
 
 use std::{path::PathBuf, sync::Arc};
 
@@ -8,7 +8,7 @@ use crate::{
     job::Job,
 };
 
-/// Opens one folder at a time.
+/// Job that opens one folder at a time.
 #[derive(Default)]
 pub(super) struct FolderWork {
     job: Option<Job<Result<(), NotOpened>>>,
@@ -20,7 +20,7 @@ impl App {
         self.folder_work.job = Some(Job::start("azel-folder", Arc::clone(&self.wake), work));
     }
 
-    /// Takes the result of the thread.
+    /// Takes the result of the folder thread.
     pub(super) fn take_folder(&mut self) {
         match Job::take(&mut self.folder_work.job) {
             None | Some(Ok(Ok(()))) => {}

@@ -1,4 +1,4 @@
-//! Reads what the operator offers as elements, on a thread.
+//! Elements that the operator offers, read on a thread.
 
 use std::sync::Arc;
 
@@ -10,14 +10,14 @@ use crate::{
     model::intake::{Intake, Judged, Offer},
 };
 
-/// The work under way.
+/// Running job that judges the offers.
 #[derive(Default)]
 pub(super) struct IntakeWork {
     judging: Option<Job<Vec<Judged>>>,
 }
 
 impl App {
-    /// Begins to read what is offered, unless it is the same as before.
+    /// Starts to read the offers, unless they equal the current ones.
     pub(super) fn offer_elements(&mut self, offers: Vec<Offer>, is_dropped: bool) {
         if let Some(intake) = self.model.intake.as_mut().filter(|intake| intake.offers == offers) {
             intake.is_dropped |= is_dropped;
@@ -45,7 +45,7 @@ impl App {
         self.model.intake = Some(Intake { offers, is_dropped, judged: None });
     }
 
-    /// Drops what is offered.
+    /// Discards the offers.
     pub(super) fn leave_elements(&mut self) {
         self.intake_work.judging = None;
         self.model.intake = None;

@@ -1,5 +1,5 @@
-//! The stations that were open in the window before, in a small file. It is a convenience: what
-//! is wrong in it costs no more than itself.
+//! Stations that the window opened before, in a small file. The list is a convenience: Azel skips
+//! entries that it cannot read.
 
 use std::{
     fs,
@@ -15,15 +15,14 @@ use crate::{
     whole_file,
 };
 
-/// Name of the file.
 const FILE: &str = "stations.toml";
-/// Number of stations that are known.
+/// Max number of stations in the list.
 const MAX: usize = 8;
 
-/// Longest wait for the write before.
+/// Max wait for the previous write.
 const WAIT: Duration = Duration::from_secs(1);
 
-/// The file, and a running write.
+/// List file with its running write.
 #[derive(Default)]
 pub(super) struct KnownWork {
     path: Option<PathBuf>,
@@ -31,14 +30,14 @@ pub(super) struct KnownWork {
 }
 
 impl KnownWork {
-    /// Keeps the file in `folder`; returns what stands in it.
+    /// Keeps the list in `folder`; returns the stations that the file already holds.
     pub(super) fn new(folder: Option<&Path>) -> (Self, Vec<KnownStation>) {
         let path = folder.map(|folder| folder.join(FILE));
         let stations = path.as_deref().map(read).unwrap_or_default();
         (Self { path, job: None }, stations)
     }
 
-    /// Puts `station` at the head of `stations` and of the file, unless it stands there.
+    /// Puts `station` at the head of `stations` and of the file, unless it is there already.
     pub(super) fn put_first(
         &mut self,
         station: KnownStation,
@@ -52,13 +51,13 @@ impl KnownWork {
         self.change(wake, move |stations| first(&station, stations));
     }
 
-    /// Forgets the station at `path`.
+    /// Removes the station at `path` from `stations` and from the file.
     pub(super) fn forget(&mut self, path: PathBuf, stations: &mut Vec<KnownStation>, wake: &Wake) {
         stations.retain(|station| station.path != path);
         self.change(wake, move |stations| stations.retain(|station| station.path != path));
     }
 
-    /// Changes the file as it is now: other windows write it too.
+    /// Changes the current content of the file, because other windows write it too.
     fn change(
         &mut self,
         wake: &Wake,

@@ -1,4 +1,4 @@
-//! Writes lines of the console to a file, on a thread.
+//! Lines of the console, written to a file on a thread.
 
 use std::{path::PathBuf, sync::Arc};
 
@@ -7,7 +7,7 @@ use jiff::Timestamp;
 use super::App;
 use crate::{job::Job, model::ConsoleLine, whole_file};
 
-/// Writes logs into one folder, one after the other.
+/// Writer that puts one log file after the other into a folder.
 #[derive(Default)]
 pub(super) struct LogWork {
     folder: Option<PathBuf>,
@@ -15,14 +15,14 @@ pub(super) struct LogWork {
 }
 
 impl LogWork {
-    /// Uses a folder beside that of the elements.
+    /// Creates a writer for the folder `console` beside the element library.
     pub(super) fn new(library: Option<PathBuf>) -> Self {
         Self { folder: library.map(|library| library.with_file_name("console")), job: None }
     }
 }
 
 impl App {
-    /// Begins to write `lines`, or reports why it cannot.
+    /// Starts to write `lines`, or reports why it cannot.
     pub(super) fn save_log(&mut self, lines: Vec<Arc<ConsoleLine>>) {
         if self.log_work.job.is_some() {
             return self.views.log_saved(Err("the last file is still being written".to_owned()));
@@ -42,7 +42,7 @@ impl App {
         self.log_work.job = Some(Job::start("azel-log-file", Arc::clone(&self.wake), write));
     }
 
-    /// Takes the result of the thread.
+    /// Takes the result of the log thread.
     pub(super) fn take_log_file(&mut self) {
         if let Some(end) = Job::take(&mut self.log_work.job) {
             self.views.log_saved(end.unwrap_or_else(|broke_off| Err(broke_off.to_string())));

@@ -1,4 +1,4 @@
-//! Reads and writes files with horizon masks, on a thread.
+//! Files with horizon masks, read and written on a thread.
 
 use std::{fs, path::PathBuf, sync::Arc};
 
@@ -11,10 +11,10 @@ use crate::{
     whole_file,
 };
 
-/// Maximum size of a mask file, bytes.
+/// Max size of a mask file, bytes.
 const MAX: u64 = 4 << 20;
 
-/// Reads or writes one file at a time; written files go to one folder.
+/// Job that reads or writes one file at a time; written files go to one folder.
 #[derive(Default)]
 pub(super) struct MaskWork {
     folder: Option<PathBuf>,
@@ -22,14 +22,14 @@ pub(super) struct MaskWork {
 }
 
 impl MaskWork {
-    /// Uses a folder beside that of the elements.
+    /// Creates the job with the folder `horizon` beside the element library.
     pub(super) fn new(library: Option<PathBuf>) -> Self {
         Self { folder: library.map(|library| library.with_file_name("horizon")), job: None }
     }
 }
 
 impl App {
-    /// Begins to read the mask at `path`.
+    /// Starts to read the mask at `path`.
     pub(super) fn import_mask(&mut self, path: PathBuf) {
         self.begin_mask_work(move |_| match read(&path) {
             Ok((mask, form)) => MaskNews::Read(mask, form),
@@ -37,7 +37,7 @@ impl App {
         });
     }
 
-    /// Begins to write a mask as a table.
+    /// Starts to write a mask as a table.
     pub(super) fn export_mask(&mut self, mask: &HorizonMask) {
         let Some(folder) = &self.mask_work.folder else {
             let reason = "this user has no folder for data".to_owned();
@@ -58,7 +58,7 @@ impl App {
         self.mask_work.job = Some(Job::start("azel-mask-file", Arc::clone(&self.wake), work));
     }
 
-    /// Takes the result of the thread.
+    /// Takes the result of the mask thread.
     pub(super) fn take_mask_file(&mut self) {
         let Some(end) = Job::take(&mut self.mask_work.job) else { return };
         self.views.mask_news(end.unwrap_or_else(|broke| MaskNews::Failed(broke.to_string())));

@@ -1,6 +1,6 @@
-//! The state that the window keeps from one start to the next, in a small file beside the
-//! station file. It is a convenience: a damaged file costs no more than its contents, and
-//! the file is written only after a change by the operator.
+//! State that the window keeps from one start to the next, in a small file beside the station file.
+//! A damaged file costs only its contents. Azel writes the file only after a change by the
+//! operator.
 
 use std::{
     fs, io,
@@ -20,22 +20,22 @@ use crate::{
     whole_file,
 };
 
-/// Usual name of the file.
+/// Default name of the file.
 const FILE: &str = "window.toml";
-/// Entries of earlier versions. They are read in silence, and the next write drops them.
+/// Entries of earlier versions. Azel reads them without a warning, and the next write drops them.
 const RETIRED: [&str; 2] = ["columns", "keys"];
 /// Entries that are absent while they have no value.
 const OPTIONAL: [&str; 5] = ["antenna", "group", "list_width", "strip_hours", "window"];
-/// Maximum wait for the last write at the end of the program.
+/// Max wait for the last write at the end of the program.
 const FAREWELL: Duration = Duration::from_millis(500);
 
-/// The kept state.
+/// State that the window keeps.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct Memory {
     pub(super) appearance: Appearance,
     /// Name of the antenna that the operator selected last.
     pub(super) antenna: Option<String>,
-    /// The view that was shown last.
+    /// Last shown view.
     pub(super) view: View,
     /// Size and place of the window; `None` until the operator changes them.
     pub(super) place: Option<Place>,
@@ -45,7 +45,7 @@ pub(super) struct Memory {
     pub(super) views: StoredViews,
 }
 
-/// Reads the file at `path`; empty where there is none, or none that can be read.
+/// Reads the file at `path`; returns an empty table if the file is missing or unreadable.
 fn read(path: &Path) -> toml::Table {
     let text = match fs::read_to_string(path) {
         Ok(text) => text,
@@ -62,7 +62,7 @@ fn read(path: &Path) -> toml::Table {
     })
 }
 
-/// Adds entries of `old` that this version does not know, such as those of a later one.
+/// Adds the entries of `old` that this version does not know, such as entries of a later version.
 fn keep_unknown(new: &mut toml::Table, old: &toml::Table) {
     for (key, old) in old {
         match (new.get_mut(key), old) {
@@ -77,7 +77,7 @@ fn keep_unknown(new: &mut toml::Table, old: &toml::Table) {
 }
 
 impl Memory {
-    /// The memory that a file holds. A missing or wrong part gets its default.
+    /// Returns the memory in a file. Missing or wrong parts get their defaults.
     fn of_file(table: &toml::Table) -> Self {
         let is_set = |key: &str| flag(table, key).unwrap_or_default();
         let number = |key: &str| {
@@ -119,7 +119,7 @@ impl Memory {
         }
     }
 
-    /// Without what belongs to one station alone.
+    /// Removes the parts that belong to one station alone.
     fn of_another_station(self) -> Self {
         Self { antenna: None, place: None, view: View::default(), ..self }
     }
@@ -179,7 +179,7 @@ impl Memory {
     }
 }
 
-/// The set-up opens by itself, where it is to.
+/// Returns the view to keep. The set-up view is not kept, because it opens automatically.
 fn kept_view(view: View) -> View {
     if view == View::Setup { View::default() } else { view }
 }
@@ -230,13 +230,13 @@ fn map_layers(table: Option<&toml::Table>) -> MapLayers {
     }
 }
 
-/// Reads one of a few words; the default if the word is missing or unknown.
+/// Reads one of a few words; returns the default if the word is missing or unknown.
 fn word<T: Default + DeserializeOwned>(table: &toml::Table, key: &str) -> T {
     table.get(key).and_then(|value| value.clone().try_into().ok()).unwrap_or_default()
 }
 
-/// File with the memory of the station in `station`: that of `station.toml` has a name of its own,
-/// that of `hill.toml` is `hill.window.toml`.
+/// Returns the memory file of the station file `station`: `window.toml` for `station.toml`,
+/// `hill.window.toml` for `hill.toml`.
 fn memory_path(station: &Path) -> PathBuf {
     match station.file_stem() {
         Some(stem) if stem != "station" => {
@@ -249,20 +249,19 @@ fn memory_path(station: &Path) -> PathBuf {
     }
 }
 
-/// The memory, its file and a running write.
+/// Memory with its file and a running write.
 pub(super) struct Keeper {
-    /// The kept state.
     pub(super) memory: Memory,
     written: Memory,
-    /// The file as it was read.
+    /// Content of the file when Azel read it.
     file: Arc<toml::Table>,
     path: Option<PathBuf>,
     job: Option<Job<()>>,
 }
 
 impl Keeper {
-    /// The memory of a station file; without a station file nothing is kept. A station without a
-    /// memory of its own begins as the usual one beside it looks.
+    /// Loads the memory of a station file; without a station file it keeps nothing. A station
+    /// without its own memory file starts from the default file beside it.
     pub(super) fn new(station: Option<&Path>) -> Self {
         let path = station.map(memory_path);
         let default_path = station.map(|station| station.with_file_name(FILE));
@@ -276,15 +275,15 @@ impl Keeper {
         Self { written: memory.clone(), memory, file: Arc::new(file), path, job: None }
     }
 
-    /// Writes changes on a thread of its own, one write at a time.
+    /// Writes changes on a thread, one write at a time.
     pub(super) fn keep(&mut self, wake: &Wake) {
-        // A failed write is in the log and is tried again with the next change.
+        // The log reports a failed write; the next change retries it.
         let _ = Job::take(&mut self.job);
         let Some(path) = self.path.clone().filter(|_| self.job.is_none()) else { return };
         if self.memory == self.written {
             return;
         }
-        // Not tried again before the next change.
+        // Do not retry a failed write before the next change.
         self.written = self.memory.clone();
         let (memory, file) = (self.memory.clone(), Arc::clone(&self.file));
         self.job = Some(Job::start("azel-window-file", Wake::clone(wake), move |_| {
@@ -292,7 +291,7 @@ impl Keeper {
         }));
     }
 
-    /// Writes the last change before the end, for a limited time.
+    /// Writes the last change before the program ends, within a limited time.
     pub(super) fn finish(&mut self, wake: &Wake) {
         for _ in 0..2 {
             if let Some(job) = self.job.take() {

@@ -1,6 +1,6 @@
-//! Tells the news of a station through the desktop, on a thread of its own. It is one more client
-//! of the station: it waits for no window, and nobody waits for it. While it is busy, news stay in
-//! the snapshots, where no top-priority alarm is lost.
+//! Reports of a station's news through the desktop, on a separate thread. The notifier is one more
+//! client of the station: it waits for no window, and nothing waits for it. While it is busy, news
+//! stay in the snapshots, which lose no top-priority alarm.
 
 use std::{io, thread, time::Duration};
 
@@ -20,7 +20,7 @@ use crate::{
     ui::words,
 };
 
-/// A station that publishes nothing for this long stands.
+/// Max time between two publications of a working station.
 const STANDS: Duration = Duration::from_secs(2);
 
 /// Handle on a running notifier, which ends with its station.
@@ -30,8 +30,8 @@ pub struct Notifier {
 }
 
 impl Notifier {
-    /// Starts telling the news of `station` to `desktop`. Calls `wake` when an outlet is found to
-    /// be missing, or is back.
+    /// Starts to report the news of `station` to `desktop`. Calls `wake` when an outlet goes
+    /// missing or comes back.
     pub fn start(station: Client, desktop: Desktop, wake: Wake) -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let (tell_outlets, outlets) = watch::channel(Outlets::default());
@@ -52,12 +52,12 @@ impl Notifier {
         Ok(Self { outlets, trials })
     }
 
-    /// The outlets that are missing.
+    /// Returns the outlets that are missing.
     pub fn outlets(&self) -> Outlets {
         self.outlets.borrow().clone()
     }
 
-    /// Shows and sounds an example, whatever is set; none while one waits.
+    /// Shows and sounds an example despite all settings; does nothing while another example waits.
     pub fn try_out(&self, sound: Sound) {
         let _ = self.trials.try_send(sound);
     }
@@ -116,7 +116,7 @@ fn notification(notice_subject: &NoticeSubject, station: &Snapshot) -> Notificat
     Notification { title, text, urgency, number }
 }
 
-/// One sound for all of them, that of the most urgent.
+/// Returns one sound for all news: the sound of the most urgent.
 fn sound(news: &[Notice]) -> Option<Sound> {
     match news.iter().map(|notice| notice.tones).max()? {
         Tones::None => None,
@@ -139,7 +139,7 @@ mod tests {
 
     const PATIENCE: Duration = Duration::from_mins(1);
 
-    /// A station whose file is `text`, and its folder.
+    /// Starts a station whose file is `text`; returns the station and its folder.
     fn station(text: &str) -> (Handle, tempfile::TempDir) {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("station.toml");

@@ -1,5 +1,5 @@
-//! Files that the operator opens: chosen in the dialog of the desktop, or by a typed path where it
-//! shows none. Both run on a thread.
+//! Files that the operator opens, on a thread. The operator chooses them in the desktop's dialog,
+//! or types a path if there is no dialog.
 
 use std::{
     path::{Path, PathBuf},
@@ -20,19 +20,19 @@ use crate::{
     },
 };
 
-/// The outcome of the wish to open a file.
+/// Outcome of a request to open a file.
 #[derive(Debug, PartialEq, Eq)]
 enum Outcome {
-    /// Files to open; none after Cancel.
+    /// Files to open; empty after Cancel.
     Chosen(OpenedFile, Vec<PathBuf>),
-    /// The operator has to type the path.
+    /// Request for a typed path.
     AsksForPath(PathRequest),
 }
 
-/// Asks for files to open, beginning in a folder; none after Cancel.
+/// Dialog that asks for files to open, starting in a folder; returns none after Cancel.
 type OpenDialog = fn(OpenedFile, Option<&Path>) -> Result<Vec<PathBuf>, NoDialog>;
 
-/// Opens one file at a time.
+/// Job that opens one file at a time.
 pub(super) struct OpenWork {
     job: Option<Job<Outcome>>,
     pub(super) dialog: OpenDialog,
@@ -54,7 +54,7 @@ fn dialog(file: OpenedFile, folder: Option<&Path>) -> Result<Vec<PathBuf>, NoDia
 }
 
 impl App {
-    /// Shows the dialog, or asks for the path.
+    /// Shows the dialog, or asks for a typed path.
     pub(super) fn choose_file(&mut self, file: OpenedFile) {
         let (dialog, folder) = (self.open_work.dialog, self.stations_folder.clone());
         self.begin_to_open(move || choose(file, folder.as_deref(), dialog, folder::documents));
@@ -73,7 +73,7 @@ impl App {
         self.open_work.job = Some(Job::start("azel-open", Arc::clone(&self.wake), move |_| work()));
     }
 
-    /// Takes the files or the path that is to be typed.
+    /// Takes the chosen files, or the request for a typed path.
     pub(super) fn take_opened_file(&mut self) {
         let Some(end) = Job::take(&mut self.open_work.job) else { return };
         match end {
@@ -93,8 +93,8 @@ impl App {
     }
 }
 
-/// Asks for files with the dialog. Without one, a file in the folder of stations or of documents is
-/// asked for.
+/// Asks for files with the dialog. Without a dialog, asks for a path in the folder of stations or
+/// of documents.
 fn choose(
     file: OpenedFile,
     stations: Option<&Path>,
@@ -108,7 +108,7 @@ fn choose(
                 OpenedFile::Station => stations.map(Path::to_owned),
                 OpenedFile::Elements => documents(),
             };
-            // With a separator at its end, for the name to be typed behind it.
+            // End the folder with a separator: the operator types the file name behind it.
             ask_for_path(file, folder.unwrap_or_default().join(""), no_dialog.to_string())
         }
     }
@@ -127,7 +127,7 @@ fn ask_for_path(file: OpenedFile, path: PathBuf, reason: String) -> Outcome {
     Outcome::AsksForPath(PathRequest { purpose: PathPurpose::Open(file), path, reason })
 }
 
-/// Why a typed path cannot be that of a file.
+/// Returns the reason why a typed path cannot name a file.
 pub(super) fn unusable(path: &Path) -> Option<&'static str> {
     if !path.is_absolute() {
         Some("type the whole path, from the root or the drive on")

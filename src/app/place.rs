@@ -1,4 +1,4 @@
-//! Size and place of the window, kept for each station and fitted to the screens that are there.
+//! Size and place of the window, kept for each station and fitted to the current screens.
 
 use std::time::Duration;
 
@@ -8,16 +8,16 @@ use serde::{Deserialize, Serialize};
 use super::App;
 use crate::clock::Instant;
 
-/// A place is kept once the window has been there for this long.
+/// Time without a change after which Azel keeps a place.
 const SETTLED: Duration = Duration::from_secs(1);
 
-/// Where the window is, in points; where it would be, while it fills the screen.
+/// Place of the window, points; for a maximized window its place when not maximized.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Place {
     /// Position of the frame; `None` where the desktop does not report it.
     #[serde(rename = "at")]
     position: Option<[i32; 2]>,
-    /// Size of the content.
+    /// Size of the content, points.
     size: [u32; 2],
     is_maximized: bool,
 }
@@ -25,11 +25,11 @@ pub(super) struct Place {
 /// The place of the window from frame to frame.
 #[derive(Debug, Default)]
 pub(super) struct PlaceWatch {
-    /// The kept place was asked for.
+    /// Flag: Azel has requested the kept place.
     is_restored: bool,
-    /// The last place, and since when.
+    /// Last place, with the time since which it is unchanged.
     last: Option<(Place, Instant)>,
-    /// The place that nobody chose.
+    /// First place, which the operator did not choose.
     first: Option<Place>,
 }
 
@@ -52,7 +52,7 @@ impl Place {
         })
     }
 
-    /// No larger than the screen that shows most of it, and wholly on that one.
+    /// Shrinks and moves the place onto the screen that shows most of it.
     fn fitted(self, screens: &[Rect]) -> Self {
         let size = vec2(self.size[0] as f32, self.size[1] as f32);
         let position = self.position.map(|[x, y]| pos2(x as f32, y as f32));
@@ -74,7 +74,7 @@ impl Place {
 }
 
 impl App {
-    /// Puts the window where it was for this station, once.
+    /// Puts the window at the place kept for this station, once.
     pub(super) fn restore_place(&mut self, ctx: &Context, frame: &eframe::Frame) {
         if std::mem::replace(&mut self.place_watch.is_restored, true) {
             return;
@@ -113,7 +113,7 @@ impl App {
     }
 }
 
-/// The screens of this desktop, in points.
+/// Returns the screens of this desktop, in points.
 fn screens(ctx: &Context, frame: &eframe::Frame) -> Vec<Rect> {
     let Some(window) = frame.winit_window() else { return Vec::new() };
     let points = 1.0 / ctx.pixels_per_point();
@@ -145,7 +145,7 @@ mod tests {
         for (saved, screens, fitted) in [
             (place(100, 50, 1440, 900), &two[..], place(100, 50, 1440, 900)),
             (place(2000, 0, 1300, 800), &two, place(2000, 0, 1300, 800)),
-            // Its screen is gone.
+            // The screen of this place is gone.
             (place(2000, 0, 1300, 800), &two[..1], place(620, 0, 1300, 800)),
             (place(300, 300, 1900, 1000), &two[1..], place(1920, 0, 1440, 900)),
             (place(-500, -90, 1440, 900), &two, place(0, 0, 1440, 900)),

@@ -1,4 +1,4 @@
-//! Rehearses the plan on a thread. It has links to simulated units alone.
+//! Rehearsal of the plan on a thread, with links to simulated units only.
 
 use std::sync::{
     Arc,
@@ -18,23 +18,23 @@ use crate::{
     station::Station,
 };
 
-/// Seed of the rehearsals of the window: the same plan gives the same.
+/// Seed of the window's rehearsals: the same plan gives the same result.
 const SEED: u64 = 1;
-/// Time before AOS at which the rehearsal of one pass begins, seconds.
+/// Time from the start of a one-pass rehearsal to AOS, seconds.
 const BEFORE_S: f64 = 300.0;
-/// Shortest rehearsal, hours.
+/// Min length of a rehearsal, hours.
 const SHORTEST_H: f64 = 0.01;
 
-/// The rehearsal under way. Dropping it cancels it.
+/// Running rehearsal; dropping it cancels it.
 #[derive(Default)]
 pub(super) struct RehearsalWork {
     job: Option<Job<Result<Rehearsed, RehearsalError>>>,
-    /// Share that is done, as bits of a number from 0 to 1.
+    /// Completed share, 0 to 1, as the bits of an `f64`.
     share: Arc<AtomicU64>,
 }
 
 impl App {
-    /// Begins to rehearse the whole plan, or a pass of it.
+    /// Starts to rehearse the whole plan, or one pass of it.
     pub(super) fn rehearse(&mut self, pass: Option<PassListKey>) {
         let model = &self.model;
         let CatalogState::Ready(catalog) = &model.catalog else { return };
@@ -50,7 +50,7 @@ impl App {
         let hours = (seconds_between(start, end) / 3600.0).max(SHORTEST_H);
         let mut station = Station::clone(&model.station);
         if let Some(key) = pass {
-            // Others might take it instead.
+            // Other antennas might take the pass instead.
             let own = model.antennas_of(key);
             station.antennas.retain(|antenna| own.contains(&antenna.id));
         }
@@ -78,7 +78,7 @@ impl App {
         self.model.rehearsal = RehearsalState::UnderWay(0.0);
     }
 
-    /// Cancels the rehearsal, or forgets the last one.
+    /// Cancels the rehearsal, or discards the last result.
     pub(super) fn end_rehearsal(&mut self) {
         self.rehearsal_work = RehearsalWork::default();
         self.model.rehearsal = RehearsalState::None;

@@ -1,7 +1,8 @@
-//! The record shown again in the window, while the live station goes on.
+//! Replay of the record in the window, while the live station goes on.
 //!
-//! Invariant: nothing here can reach a unit. A replay has a model and views of its own, and no handle
-//! on a station. What its views ask for ends here, but for [`Beyond`], which holds no command.
+//! Invariant: a replay cannot reach a unit. A replay has its own model and views, and no handle on
+//! a station. All commands of its views end here, except [`RoomEdge`], which holds no command to a
+//! unit but STOP.
 
 mod ending;
 mod room;
@@ -37,11 +38,11 @@ use crate::{
     ui,
 };
 
-/// Least time between two moments that are shown while it plays, seconds.
+/// Min step between two shown moments while a replay plays, seconds.
 const STEP_S: f64 = 0.05;
 
 impl App {
-    /// Shows a stretch of the record again, from `time` on.
+    /// Starts a replay of a stretch of the record at `time`.
     pub(super) fn begin_replay(&mut self, stretch: Stretch, time: Timestamp) {
         let Some(record) = &self.model.record else { return };
         let views = ui::Views::new(self.views.stored());
@@ -50,7 +51,7 @@ impl App {
         self.replay = Some(Replay::begin(path, stretch, time, &self.model, views, wake));
     }
 
-    /// Shows the live station again, and why.
+    /// Shows the live station again, with the reason for leaving the replay.
     pub(super) fn leave_replay(&mut self, reason: Option<ReplayEnd>) {
         let Some(replay) = self.replay.take() else { return };
         replay.end();
@@ -66,7 +67,8 @@ impl App {
         }
     }
 
-    /// Carries out a command of the views of a replay: there, or what leads out of it.
+    /// Carries out a command of the replay's views in the replay, or the action that leads out of
+    /// it.
     pub(super) fn carry_out_in_replay(&mut self, command: UiCommand, ctx: &egui::Context) {
         let Some(replay) = &mut self.replay else { return };
         match replay.carry_out(command) {
@@ -85,34 +87,34 @@ impl App {
 
 /// Action that leads out of a replay.
 pub(super) enum RoomEdge {
-    /// STOP of the live station.
+    /// STOP of all antennas of the live station.
     Stop,
-    /// STOP of one of its antennas.
+    /// STOP of one antenna of the live station.
     StopAntenna(AntennaId),
     Leave,
     Show(View),
     Appear(Appearance),
 }
 
-/// A stretch of the record shown again.
+/// Replay of a stretch of the record.
 pub(super) struct Replay {
     model: Model,
     views: ui::Views,
-    /// UTC of the live station when it began.
+    /// UTC of the live station when the replay began.
     begun_at: Timestamp,
-    /// Reader of the film, while it is at rest.
+    /// Reader of the film, while no job uses it.
     room: Option<Box<Room>>,
-    /// Its work, which gives it back unless it breaks off.
+    /// Running job, which returns the reader unless the job breaks off.
     job: Option<Job<(Box<Room>, Answer)>>,
     /// The moment to show next.
     requested: Option<FilmTarget>,
-    /// The pass whose antenna is still to be selected, once the station of its time is known.
+    /// Pass whose antenna the replay selects once it knows the station of that time.
     unselected: Option<StretchPass>,
-    /// The stretch whose passes are marked.
+    /// Stretch whose passes the replay marks.
     marked: Option<Stretch>,
-    /// When the moment that is shown moved on last, by the clock of the window.
+    /// Time at which the shown moment last moved on, by the clock of the window.
     moved_at: Instant,
-    /// Part of the record that is shown.
+    /// Part of the record that the replay shows.
     look: Option<RecordLook>,
     catalog_work: CatalogWork,
     effects_jobs: EffectsJobs,
@@ -120,7 +122,7 @@ pub(super) struct Replay {
 }
 
 impl Replay {
-    /// Begins to show a stretch of the record at `path`, in the window that shows `live`.
+    /// Starts a replay of the record at `path`, in the window that shows `live`.
     pub(super) fn begin(
         path: PathBuf,
         stretch: Stretch,
@@ -132,7 +134,7 @@ impl Replay {
         let now = Moment { utc: time, steady: live.steady };
         let mut model = Model::before_anything(now);
         (model.view, model.appearance, model.list) = (live.view, live.appearance, live.list);
-        // The film has the elements of the favourites.
+        // The film holds the elements of the favourites, so the list shows only their passes.
         model.list.scope = Scope::Favourites;
         model.selected_antenna = live.selected_antenna;
         let unselected = stretch.pass;
@@ -162,7 +164,7 @@ impl Replay {
         self.model.replay.as_ref().is_some_and(|replay| replay.plays)
     }
 
-    /// Takes what was found, and moves on. `now`: the clock of the window.
+    /// Takes the results of the thread and moves on. `now` is the time of the window's clock.
     pub(super) fn think(&mut self, now: Instant) {
         self.take_answer();
         self.move_on(now);
@@ -172,7 +174,7 @@ impl Replay {
         self.model.refresh_sky();
     }
 
-    /// Ends it. The file is closed elsewhere: that takes a disk.
+    /// Ends the replay. A thread closes the file, because closing needs the disk.
     fn end(self) {
         if let Some(room) = self.room {
             drop(Job::start("azel-replay", self.wake, move |_| drop(room)));
@@ -183,8 +185,8 @@ impl Replay {
         self.views.show_replay(ui, live, &self.model, commands);
     }
 
-    /// Carries out a command of the views of the replay, or returns what leads out of it. All others
-    /// end here.
+    /// Carries out a command of the replay's views, or returns the action that leads out of the
+    /// replay. Ignores all other commands.
     pub(super) fn carry_out(&mut self, command: UiCommand) -> Option<RoomEdge> {
         let model = &mut self.model;
         match command {
@@ -192,7 +194,7 @@ impl Replay {
             UiCommand::StopAntenna(antenna) => return Some(RoomEdge::StopAntenna(antenna)),
             UiCommand::LeaveReplay => return Some(RoomEdge::Leave),
             UiCommand::Replay(command) => self.change(command),
-            // The set-up is of the live station.
+            // The set-up belongs to the live station.
             UiCommand::Show(View::Setup) => {}
             UiCommand::Show(view) => {
                 model.view = view;
@@ -247,7 +249,7 @@ impl Replay {
             ReplayCommand::PlayOrPause => {
                 let is_forward = replay.speed > 0;
                 if let Some(ReplayProblem::NoFilm { start: begin, end }) = replay.problem {
-                    // On the other side it goes on.
+                    // Continue on the other side of the gap in the film.
                     self.requested = Some(FilmTarget::At(if is_forward { end } else { begin }));
                 } else if !replay.plays && replay.is_at_end() {
                     let stretch = &replay.stretch;
@@ -315,7 +317,7 @@ impl Replay {
                 }
             }
             Ok(None) => {
-                // Nothing of another moment may stand under this time.
+                // Clear the scene: state of another moment must not appear under this time.
                 let moment = Moment { utc: time, steady: self.model.steady };
                 self.take_scene(
                     time,
@@ -332,9 +334,9 @@ impl Replay {
 
     fn take_scene(&mut self, time: Timestamp, Scene { mut shown, wires }: Scene) {
         let model = &mut self.model;
-        // The record is read by itself, and a closing is of the live station.
+        // The replay reads the record separately, and only the live station can close.
         (shown.recorded, shown.closing) = (model.recorded.clone(), None);
-        // Ages are those of that moment.
+        // Show ages relative to `time`.
         let passed = time.duration_since(shown.moment.utc).try_into().unwrap_or_default();
         (model.now, model.steady) = (time, shown.moment.steady + passed);
         model.take(Arc::new(shown), |antenna| {
@@ -381,7 +383,7 @@ impl Replay {
         self.requested = Some(FilmTarget::At(time));
     }
 
-    /// Begins to read what is wanted, unless something is being read.
+    /// Starts to read the requested parts, unless a read is running.
     fn ask(&mut self) {
         let is_read = |record_look: &RecordLook| {
             self.model.recorded.as_ref().is_some_and(|recorded| recorded.look == *record_look)

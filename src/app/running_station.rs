@@ -1,5 +1,5 @@
-//! A station that runs before its window is there: elements are read and units are asked while
-//! the system makes the window.
+//! Station that runs before its window exists: it reads elements and asks units while the system
+//! makes the window.
 
 use std::{
     io,
@@ -20,7 +20,7 @@ use crate::{
     job::Wake,
 };
 
-/// News that come within this time are shown by one frame.
+/// Time within which one frame shows all news.
 const MERGED: Duration = Duration::from_millis(30);
 
 /// A running station without a window.
@@ -29,21 +29,21 @@ pub struct RunningStation {
     pub(super) settings: Settings,
     pub(super) outside: Outside,
     pub(super) wake: Wake,
-    /// The station in the window, for the signals of the operating system.
+    /// Client of the station in the window; the signal handlers send STOP through it.
     pub(super) client: Arc<Mutex<Client>>,
-    /// The operator or the operating system has decided to close: no question is asked.
+    /// Flag: the operator or the operating system decided to close, so Azel asks no question.
     pub(super) may_close: Arc<AtomicBool>,
-    /// The operating system ends the program: nobody can be asked.
+    /// Flag: the operating system ends the program, so nobody can answer a question.
     pub(super) told_to_end: Arc<AtomicBool>,
-    /// Metal moves, and frames come at the pace of [`MOVING_FRAME`].
+    /// Flag: an antenna moves, so frames come at the pace of [`MOVING_FRAME`].
     pub(super) is_lively: Arc<AtomicBool>,
-    /// An antenna is jogged.
+    /// Flag: an antenna is jogged.
     pub(super) is_jogging: Arc<AtomicBool>,
     window: Arc<OnceLock<Context>>,
 }
 
 impl RunningStation {
-    /// Starts the station that `settings` name.
+    /// Starts the station that `settings` names.
     pub fn start(settings: Settings, outside: impl Into<Outside>) -> io::Result<Self> {
         let outside = outside.into();
         let window = Arc::default();
@@ -68,15 +68,15 @@ impl RunningStation {
         })
     }
 
-    /// A flag that says, once there is a window, whether an antenna is jogged.
+    /// Returns the flag that is set while an antenna is jogged, once there is a window.
     pub fn is_jogging(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.is_jogging)
     }
 
-    /// Hands the window to the station's waker; closes it at once if the operating system has ended the
-    /// program.
+    /// Hands the window to the station's waker. Closes the window at once if the operating system
+    /// has ended the program.
     pub(super) fn show_in(&self, ctx: &Context) {
-        // There is one window.
+        // The cell is still empty: a program has one window.
         let _ = self.window.set(ctx.clone());
         if self.told_to_end.load(Ordering::SeqCst) {
             ctx.send_viewport_cmd_to(ViewportId::ROOT, ViewportCommand::Close);
@@ -84,8 +84,7 @@ impl RunningStation {
     }
 }
 
-/// Makes a log-out or Ctrl C in the terminal close the window in order, so that a jog ends
-/// with STOP.
+/// Makes a log-out or Ctrl C in the terminal close the window in order, to end a jog with STOP.
 fn close_on_signals(
     station: Arc<Mutex<Client>>,
     flags: [Arc<AtomicBool>; 2],
@@ -108,9 +107,10 @@ fn close_on_signals(
     signals::watch(stop, end)
 }
 
-/// A waker that requests a frame soon: the delay merges all requests in between. While metal moves,
-/// news come with the next of the frames that come anyway; each position of each antenna would have
-/// one of its own, and a key that comes while a frame is painted has to wait.
+/// Returns a waker that requests a frame soon; the delay merges the requests in between.
+///
+/// While an antenna moves, news wait for the next regular frame. Otherwise each position of each
+/// antenna would cost a frame, and keys would wait for its painting.
 fn wake(window: Arc<OnceLock<Context>>, is_lively: Arc<AtomicBool>) -> Wake {
     Arc::new(move || {
         if let Some(ctx) = window.get() {
@@ -129,7 +129,7 @@ mod tests {
         for (is_lively, soon) in [(false, MERGED), (true, MOVING_FRAME)] {
             let window = Arc::<OnceLock<Context>>::default();
             let wake = wake(Arc::clone(&window), Arc::new(is_lively.into()));
-            // Before there is a window, nothing is to be drawn.
+            // Without a window there is nothing to draw.
             wake();
             let (ctx, delays) = (Context::default(), Arc::<Mutex<Vec<_>>>::default());
             let notified = Arc::clone(&delays);

@@ -41,7 +41,7 @@ fn order(export: impl Fn(&[PredictedPass]) -> Export) -> Order {
     Order { export, catalog, lists, recorded, record, schedule, station, span_h: 24, now }
 }
 
-/// The first pass of the lists is taken, the second is not.
+/// Returns a plan that takes the first pass of the lists and leaves out the second.
 fn schedule(lists: &PassLists, antenna: AntennaId) -> Planned {
     let [predicted, left_out, ..] = &lists.favourites.passes[..] else { panic!("two passes") };
     let key = |pass: &PredictedPass| Key { satellite: pass.number(), aos: pass.pass.aos.time };

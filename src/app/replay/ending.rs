@@ -1,4 +1,4 @@
-//! When a replay ends by itself, for the sake of the live station.
+//! Automatic end of a replay, in favour of the live station.
 
 #[cfg(test)]
 mod tests;
@@ -16,7 +16,7 @@ use crate::{
     ui::words,
 };
 
-/// Why a replay that began at `begun_at` ends by itself.
+/// Returns the reason why a replay that began at `begun_at` ends automatically.
 pub(super) fn why_over(begun_at: Timestamp, live: &Model) -> Option<ReplayEnd> {
     let is_grave = |alarm: &Alarm| {
         alarm.priority() == Priority::First && !alarm.acknowledged && alarm.last > begun_at

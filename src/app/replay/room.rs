@@ -1,4 +1,4 @@
-//! The work of a replay that takes a disk: finding what was shown, on a thread.
+//! Disk work of a replay, on a thread: it finds the state at a moment.
 
 use std::path::PathBuf;
 
@@ -22,12 +22,12 @@ use crate::{
 #[derive(Debug, Clone, Copy)]
 pub(super) enum FilmTarget {
     At(Timestamp),
-    /// The next event after this moment, or the one before.
+    /// Next event after `start`, or the previous event.
     Event {
         start: Timestamp,
         is_next: bool,
     },
-    /// The beginning of the next pass, or of the one before.
+    /// Start of the next pass, or of the previous pass.
     Pass {
         reference: Neighbour,
         is_next: bool,
@@ -37,11 +37,11 @@ pub(super) enum FilmTarget {
 /// A projector for the record at `path`.
 pub(super) struct Room {
     path: PathBuf,
-    /// `None` until it is needed.
+    /// Projector of the record; `None` until its first use.
     projector: Option<Projector>,
 }
 
-/// A stretch of which there is no film.
+/// Stretch without film.
 type Hole = (Timestamp, Timestamp);
 
 /// Requests to a [`Room`].
@@ -49,32 +49,32 @@ type Hole = (Timestamp, Timestamp);
 pub(super) struct RoomRequest {
     pub(super) target: Option<FilmTarget>,
     pub(super) look: Option<RecordLook>,
-    /// The stretch whose passes are to be marked.
+    /// Stretch whose passes the replay has not marked yet.
     pub(super) unmarked: Option<Stretch>,
 }
 
 /// Results of a [`Room`].
 #[derive(Default)]
 pub(super) struct Answer {
-    /// The moment that was found, or why there is none.
+    /// Moment that was found, or the reason why there is none.
     pub(super) found: Option<Result<Found, JumpNews>>,
     pub(super) recorded: Option<Recorded>,
     pub(super) passes: Option<(Stretch, Vec<PassTimes>)>,
 }
 
-/// A moment.
+/// Moment that was found, with its scene.
 pub(super) struct Found {
     pub(super) time: Timestamp,
-    /// The stretch that is shown from then on, where that is another one.
+    /// New stretch to show; `None` keeps the current stretch.
     pub(super) stretch: Option<Stretch>,
-    /// The stretch around it of which there is no film.
+    /// Gap in the film around `time`.
     pub(super) hole: Option<Hole>,
-    /// Stretch that was passed over, because there is no film of it.
+    /// Gap in the film that the search passed over.
     pub(super) skipped: Option<Hole>,
     pub(super) scene: Result<Option<Scene>, FilmError>,
 }
 
-/// State that the station showed, and the lines on its links.
+/// Shown state of the station, with the lines on its links.
 pub(super) struct Scene {
     pub(super) shown: Snapshot,
     pub(super) wires: Vec<(AntennaId, WireLog)>,
@@ -97,7 +97,7 @@ impl Room {
         }
     }
 
-    /// The passes of a stretch. Without them it can be shown as well.
+    /// Returns the passes of a stretch, or none after an error: a replay also works without them.
     fn passes(&self, stretch: &Stretch, site: Site) -> Vec<PassTimes> {
         let passes = match stretch.pass {
             Some(pass) => record::times_of_pass(&self.path, pass.id, site)
@@ -124,7 +124,7 @@ impl Room {
             FilmTarget::Event { start: begin, is_next } => {
                 match self.event(begin, is_next).transpose() {
                     None => return Err(JumpNews::NoEvent { is_next }),
-                    // Where the film cannot be read, it stands still and says so.
+                    // If the film cannot be read, stay at `begin` and report the error.
                     Some(moment) => (None, moment.map_err(|error| (begin, error))),
                 }
             }
@@ -147,7 +147,7 @@ impl Room {
         })
     }
 
-    /// The moment of the next event, or of the one before, and what was passed over on the way.
+    /// Returns the time of the next or previous event, and the gap passed over on the way.
     fn event(
         &mut self,
         start: Timestamp,
@@ -156,7 +156,7 @@ impl Room {
         let film = self.projector()?.film();
         let Some(event) = film.event(start, is_next)? else { return Ok(None) };
         let shown = film.shown_from(event)?;
-        // The picture that shows an event shows the ones shortly before it as well.
+        // The picture of an event also shows the events shortly before it.
         let time = if is_next || shown < start { shown } else { event };
         let skipped = film.hole(start.min(time), start.max(time))?;
         Ok(Some((time, skipped)))

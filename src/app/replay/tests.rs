@@ -1,4 +1,4 @@
-//! A replay whose thread cannot be started or breaks off, and commands given in one.
+//! Replays whose thread does not start or breaks off, and commands during a replay.
 
 use super::*;
 use crate::{
@@ -21,7 +21,7 @@ fn replay() -> Replay {
     Replay::begin(path, stretch, time, &live, ui::Views::default(), Arc::new(|| {}))
 }
 
-/// Reading ended for this reason, and no key makes the replay look as if it went on.
+/// Checks that the replay ended for `reason`, and that no key makes it appear to go on.
 fn is_not_read(mut replay: Replay, reason: &str) {
     let problem = Some(ReplayProblem::NotRead(reason.to_owned()));
     let shown = |replay: &Replay| replay.model.replay.clone().unwrap();
@@ -66,7 +66,7 @@ fn a_command_given_in_a_replay_ends_there() {
     }
 }
 
-/// The station of a film, with two antennas.
+/// Returns the station of a film, with two antennas.
 fn scene(time: Timestamp) -> Scene {
     let mut shown = Snapshot::before_anything(Moment { utc: time, steady: Instant::now() });
     shown.antennas = ["North", "South"]

@@ -7,7 +7,8 @@ use crate::{
     plan::Sample,
 };
 
-/// The direction on a path at `time`; `None` beyond its ends and where it is not finite.
+/// Returns the direction on a path at `time`; `None` beyond its ends and where the direction is not
+/// finite.
 pub fn sample_at(path: &[Sample], time: Timestamp) -> Option<Sample> {
     let next = path.partition_point(|sample| sample.time < time);
     let end = path.get(next)?;
@@ -16,7 +17,7 @@ pub fn sample_at(path: &[Sample], time: Timestamp) -> Option<Sample> {
     }
     let start = path.get(next.checked_sub(1)?)?;
     let part = seconds_between(start.time, time) / seconds_between(start.time, end.time);
-    // Between vectors, so that nothing jumps at north or at the zenith.
+    // Interpolate between vectors: angles would jump at north and at the zenith.
     let middle = start.direction.to_enu().lerp(end.direction.to_enu(), part);
     finite(Sample { time, direction: AzEl::from_enu(middle) })
 }

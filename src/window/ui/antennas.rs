@@ -1,8 +1,8 @@
-//! The Antennas view: every setting of every unit, with its value on the unit, the new
-//! value, and the result of sending it.
+//! The Antennas view: every setting of every unit, with its value on the unit, the new value, and
+//! the result of sending the new value.
 //!
-//! Invariant: the values that a form shows as on the unit were read from it, and their age
-//! is shown; an edit remains the operator's until it was read back.
+//! Invariant: a form shows a value as on the unit only if Azel read it there, with its age. An edit
+//! remains the operator's until Azel has read it back.
 
 mod cards;
 mod draft;
@@ -44,8 +44,7 @@ use crate::model::{Model, UiCommand, View};
 
 const PADDING: f32 = 16.0;
 
-/// Edits of all units, by the names of their antennas. Without `Debug`: a password may be
-/// among them.
+/// Edits of all units, by antenna name. The type has no `Debug`, because an edit may be a password.
 #[derive(Default)]
 pub struct AntennasState {
     forms: BTreeMap<String, Form>,
@@ -55,8 +54,8 @@ pub struct AntennasState {
 }
 
 impl AntennasState {
-    /// Runs once a frame, whatever view is shown: takes the results of changes, and locks the
-    /// service functions when they may no longer be open.
+    /// Takes the results of changes, and locks service functions that may no longer be open. Runs
+    /// in every frame, in every view.
     pub fn watch(&mut self, model: &Model) {
         for index in 0..model.antennas.len() {
             let Some(unit) = ShownUnit::new(model, index) else { continue };
@@ -66,8 +65,8 @@ impl AntennasState {
         }
     }
 
-    /// Takes this value over into the form of the antenna at `place`, as if it had been typed, and
-    /// shows it.
+    /// Takes `copy` over into the form of the antenna at index `place`, as if the operator had
+    /// typed it, and scrolls to it.
     pub fn type_in(&mut self, model: &Model, place: usize, copy: CopiedValues) {
         let Some(unit) = ShownUnit::new(model, place) else { return };
         let sections = Section::new(&unit.antenna.config.connection).into_iter();
@@ -77,7 +76,7 @@ impl AntennasState {
         form.take_over(&unit, vec![copy]);
     }
 
-    /// Number of typed values that are not on their unit.
+    /// Returns the number of typed values that are not on their unit.
     pub fn edited(&self, model: &Model) -> usize {
         let units = (0..model.antennas.len()).filter_map(|index| ShownUnit::new(model, index));
         let edited =
@@ -86,7 +85,7 @@ impl AntennasState {
     }
 }
 
-/// Draws the view.
+/// Draws the Antennas view into `rect`.
 pub fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -143,7 +142,8 @@ pub fn show(
     state.unlock.take_if(|_| answer != Some(UnlockAnswer::Open) && answer.is_some());
 }
 
-/// Shows that there is no antenna. A new one could not be saved over a file that was not read.
+/// Shows that there is no antenna. Offers no new antenna while the station file is unread, because
+/// Azel could not save over that file.
 pub(super) fn none(ui: &Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     let inner = rect.shrink(PADDING);

@@ -1,5 +1,5 @@
-//! The strip that marks the demo station, a replay or a station file that could not be read, and says
-//! why a replay has ended.
+//! Strip that marks the demo station, a replay or an unread station file, or gives the reason why a
+//! replay ended.
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
@@ -16,10 +16,10 @@ use crate::{
     orbit::BUNDLED_SOURCE,
 };
 
-/// Height of the strip.
+/// Height of the strip, points.
 pub const HEIGHT: f32 = 32.0;
 
-/// Height of the strip of `model`, in a window that is not low.
+/// Returns the height of the strip for `model` in a window of normal height, points.
 pub fn height(model: &Model) -> f32 {
     if has_replay(model) { replay::HEIGHT } else { HEIGHT }
 }
@@ -28,13 +28,13 @@ fn has_replay(model: &Model) -> bool {
     model.replay.is_some() || model.replay_end.is_some()
 }
 
-/// Height of the strip in a low window, where its text is shorter and its button follows that: all
-/// of it stands at one place in a narrow and in a wide view.
+/// Height of the strip in a low window, points. The text is shorter there and its button follows
+/// it, so the strip looks the same in narrow and wide views.
 pub const LOW_HEIGHT: f32 = 28.0;
 const PADDING: f32 = 16.0;
 
-/// The room of the strip. It outlives the demonstration until another view is opened: without it
-/// every control would move under the pointer.
+/// Room of the strip. The room outlives the demonstration until another view opens: otherwise every
+/// control would move under the pointer.
 #[derive(Debug, Default)]
 pub struct BannerRoom {
     kept_for: Option<View>,
@@ -52,7 +52,7 @@ impl BannerRoom {
     }
 }
 
-/// Shows the strip; after the demonstration it names the station in use.
+/// Shows the strip; after the demonstration the strip names the station in use.
 pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
     if let Some(replayed) = &model.replay {
         return replay::show(ui, rect, model, replayed, commands);

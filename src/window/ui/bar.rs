@@ -1,4 +1,4 @@
-//! Fills the top bar from the model.
+//! Content of the top bar, from the model.
 
 use egui::{Rect, Ui};
 
@@ -81,7 +81,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
 /// An alarm in words.
 struct ToldAlarm<'a> {
     alarm: &'a Alarm,
-    /// It follows from an alarm above it.
+    /// Flag: the alarm follows from an alarm above it.
     follows: bool,
     text: String,
     time: String,
@@ -104,8 +104,7 @@ impl ToldAlarm<'_> {
     }
 }
 
-/// The alarms in the order of the list: those that stand or are new, the shelved ones, and those
-/// that are over and seen.
+/// Returns the alarms in the order of the list: standing or new, shelved, then over and seen.
 fn told_alarms(model: &Model) -> Vec<ToldAlarm<'_>> {
     let mut placed = model.alarms.in_order();
     placed.sort_by_key(|placed| Section::new(placed.alarm.state()));
@@ -138,7 +137,8 @@ fn alarm_text(model: &Model, alarm: &Alarm) -> String {
     words::alarm(&alarm.kind, name, model.now) + &reason.unwrap_or_default()
 }
 
-/// The gravest red alarm that stands for an antenna, in words; the newest of several.
+/// Returns the most urgent red alarm that stands for an antenna, in words; the newest of equal
+/// ones.
 pub fn alarm(model: &Model, antenna: &AntennaModel) -> Option<String> {
     let stands = |alarm: &&Alarm| match alarm.state() {
         AlarmState::New | AlarmState::Seen => true,
@@ -148,11 +148,11 @@ pub fn alarm(model: &Model, antenna: &AntennaModel) -> Option<String> {
     };
     let own = model.alarms.list().iter().filter(|alarm| alarm.antenna == Some(antenna.id()));
     let red = own.filter(stands).filter(|alarm| alarm.priority().is_red());
-    // The list has the newest last, and of equals the last one is taken.
+    // The list ends with the newest alarm, and `max_by_key` returns the last of equal ones.
     red.max_by_key(|alarm| alarm.priority()).map(|alarm| alarm_text(model, alarm))
 }
 
-/// The barrier that an alarm is about.
+/// Returns the barrier that an alarm is about.
 fn barrier_of(kind: &AlarmKind) -> Option<&Barrier> {
     match kind {
         AlarmKind::Safety(matter) => matter.barrier(),
@@ -173,7 +173,7 @@ fn is_left_to_the_sun(kind: &AlarmKind, antenna: &AntennaModel) -> bool {
     is_about && is_there && antenna.can_park() && !antenna.is_busy()
 }
 
-/// The effect of STOP, with its further effects on some antennas.
+/// Describes the effect of STOP, with its further effects on some antennas.
 fn stop_about(model: &Model, left_out: Option<&(String, String)>) -> String {
     let note = |antenna: &AntennaModel| {
         Some(format!(" {}: {}", antenna.config.name, antenna.variant().capabilities.stop_note?))
@@ -185,7 +185,8 @@ fn stop_about(model: &Model, left_out: Option<&(String, String)>) -> String {
     }
 }
 
-/// How many antennas STOP stops, and the names of those that it leaves to others, if any.
+/// Returns the number of antennas that STOP stops, and a sentence on those that it leaves to
+/// others; `None` if it stops all.
 fn left_out_of_stop(model: &Model) -> Option<(String, String)> {
     let is_left_out = |model_antenna: &&AntennaModel| {
         model_antenna.held_by.is_none() && !model_antenna.snapshot.wants_stop()
@@ -239,7 +240,7 @@ pub fn glyph(model: &Model, antenna: &AntennaModel) -> LinkGlyph {
     }
 }
 
-/// Age of what the unit reported last, or empty.
+/// Returns the age of the unit's last report, or an empty text.
 pub fn age(model: &Model, antenna: &AntennaModel) -> String {
     let last_reply = antenna.snapshot.state.traffic.last_reply;
     let age = match antenna.answers(model.steady) {
@@ -250,13 +251,13 @@ pub fn age(model: &Model, antenna: &AntennaModel) -> String {
     age.map_or_else(String::new, |age| format::age(age.as_secs_f64()))
 }
 
-/// Automatic operation of an antenna, in these words.
+/// Returns the automatic operation of an antenna, described by `words`.
 pub fn automatic_model<'a>(antenna: &AntennaModel, words: &'a str) -> AutomaticModel<'a> {
     let is_suspended = matches!(antenna.operation, Operation::Suspended { .. });
     AutomaticModel { is_suspended, words }
 }
 
-/// Activity of an antenna in one or two words.
+/// Returns the activity of an antenna in one or two words.
 pub fn activity(model: &Model, antenna: &AntennaModel) -> &'static str {
     let state = &antenna.snapshot.state;
     let stops = matches!(
@@ -291,7 +292,7 @@ pub fn activity(model: &Model, antenna: &AntennaModel) -> &'static str {
     }
 }
 
-/// The sentence of the first antenna that is not known to stand still after a stop.
+/// Returns the state sentence of the first antenna that may still move after a stop.
 fn unproved_stop(model: &Model) -> Option<String> {
     let unproved =
         |antenna: &&AntennaModel| matches!(antenna.snapshot.stop, StopState::NotConfirmed { .. });

@@ -1,4 +1,4 @@
-//! The confirmation of a command that moves metal and was given by a key.
+//! Confirmation of a key command that moves an antenna.
 
 use egui::{Key, Ui};
 
@@ -22,8 +22,8 @@ pub struct Question {
 }
 
 impl Question {
-    /// Shows the question until it is answered. Enter says yes unless Cancel has the focus, Esc says
-    /// no.
+    /// Shows the question until the operator answers. Enter says yes unless Cancel has the focus;
+    /// Esc says no.
     pub fn show(question: &mut Option<Self>, ui: &Ui, commands: &mut Vec<UiCommand>) {
         let Some(requested) = question else { return };
         let mut answer = None;

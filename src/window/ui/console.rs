@@ -21,7 +21,7 @@ use crate::model::{ConsoleLine, Model, UiCommand};
 use entry::Entry;
 use log::{Filter, Log};
 
-/// In a window below this width the inspector is a drawer.
+/// Window width below which the inspector is a drawer, points.
 const DRAWER_BELOW: f32 = 1100.0;
 const INSPECTOR: f32 = 344.0;
 const PADDING: f32 = 16.0;
@@ -38,7 +38,7 @@ pub struct ConsoleState {
     is_paused: bool,
     inspector_is_open: bool,
     entry: Entry,
-    /// Outcome of the last saving.
+    /// Outcome of the last save.
     saved: Option<Result<PathBuf, String>>,
 }
 
@@ -48,7 +48,7 @@ impl ConsoleState {
         self.filter_wants_focus = true;
     }
 
-    /// Takes the outcome of saving the shown lines: the path or the error.
+    /// Takes the outcome of a save of the shown lines: the path or the error.
     pub fn saved(&mut self, result: Result<PathBuf, String>) {
         self.saved = Some(result);
     }
@@ -57,7 +57,7 @@ impl ConsoleState {
         self.log.line(self.selection.row()?)
     }
 
-    /// The selected lines that are shown, by position.
+    /// Returns the positions of the lines that are both selected and shown.
     fn chosen(&self) -> impl Iterator<Item = u64> {
         let shown = self.log.shown();
         let is_shown = |position: &u64| shown.binary_search(position).is_ok();
@@ -75,7 +75,7 @@ impl ConsoleState {
     }
 }
 
-/// Draws the view. The inspector has room beside the log if `window` is wide enough.
+/// Draws the view. The inspector stands beside the log if `window` is wide enough.
 pub fn show(
     ui: &mut Ui,
     window: Rect,
@@ -116,7 +116,7 @@ pub fn show(
     }
 }
 
-/// Takes new lines into the view, except while it is paused; recording goes on.
+/// Takes new lines into the view unless the view is paused; a pause does not stop the recording.
 fn take_new_lines(ui: &Ui, model: &Model, state: &mut ConsoleState) {
     state.log.set_filter(&state.filter);
     if state.is_paused {

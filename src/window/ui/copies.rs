@@ -18,12 +18,12 @@ use crate::{
     model::UiCommand,
 };
 
-/// Width of the dialog if the window has room for it.
+/// Width of the dialog if the window has room for it, points.
 const WIDTH: f32 = 760.0;
-/// Maximum height of the table before it scrolls.
+/// Max height of the table before it scrolls, points.
 const TABLE: f32 = 320.0;
 
-/// Input and choices.
+/// Typed path and chosen values.
 #[derive(Debug, Default)]
 pub struct CompareState {
     path: String,
@@ -40,8 +40,8 @@ pub struct CopiedValues {
     pub value: Value,
 }
 
-/// Shows the dialog for `antenna`. Returns once the values that the
-/// operator takes over.
+/// Shows the dialog for `antenna`. Returns the values in the frame in which the operator takes them
+/// over.
 pub fn show(
     ui: &Ui,
     antenna: &AntennaModel,
@@ -76,7 +76,7 @@ pub fn show(
     entries
 }
 
-/// Shows the existing copies, and a path to any other. Returns the one to read.
+/// Shows the existing copies and a field for another path. Returns the path to read.
 fn choose(ui: &mut Ui, open: &OpenCopy, state: &mut CompareState) -> Option<PathBuf> {
     let t = theme::tokens(ui);
     let mut read = None;

@@ -1,4 +1,4 @@
-//! Modal questions. Esc says no, and is also STOP, as everywhere.
+//! Modal questions. Esc says no and sends STOP, as everywhere.
 
 pub mod changing;
 pub mod closing;
@@ -31,16 +31,16 @@ pub enum Answer {
     No,
 }
 
-/// Asks `words`; `yes` is the text of the button that agrees, as does Enter unless No
-/// has the focus.
+/// Asks `words`; `yes` is the label of the button that agrees. Enter also agrees, unless No has the
+/// focus.
 pub fn question(ui: &Ui, words: &str, yes: &str) -> Option<Answer> {
     ask(ui, "question", yes, true, |ui| {
         ui.label(RichText::new(words).font(text::body()));
     })
 }
 
-/// Asks about a host key that was never seen before. Enter does nothing here, as the operator
-/// must compare the fingerprint first.
+/// Asks about a new host key. Enter does nothing here, because the operator must compare the
+/// fingerprint first.
 pub fn host_key(ui: &Ui, key: &DoubtfulKey) -> Option<Answer> {
     ask(ui, "host key", "It is the right key", false, |ui| {
         let t = theme::tokens(ui);
@@ -55,8 +55,8 @@ pub fn host_key(ui: &Ui, key: &DoubtfulKey) -> Option<Answer> {
     })
 }
 
-/// Reports a refused host key, with both fingerprints and what to do. `forget` is the command
-/// that forgets the known key; it takes a second confirmation.
+/// Reports a refused host key, with both fingerprints and instructions. The command `forget`
+/// removes the known key after a second confirmation.
 pub fn changed_key(
     ui: &mut Ui,
     key: &DoubtfulKey,

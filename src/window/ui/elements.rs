@@ -40,9 +40,9 @@ use crate::{
 };
 
 const PADDING: f32 = 16.0;
-/// Below this width of the view the inspector is a drawer.
+/// View width below which the inspector is a drawer, points.
 const DRAWER_BELOW: f32 = 1028.0;
-/// Below this height of the view the bar is low.
+/// View height below which the bar is low, points.
 const LOW_BELOW: f32 = 700.0;
 
 /// Input, selection and open parts.
@@ -53,16 +53,16 @@ pub struct ElementsState {
     selection: BoxSelection<u32>,
     wants_search: bool,
     scroll: Scroll,
-    /// `None` until the operator folds or unfolds them.
+    /// Flag: the list of sources is unfolded; `None` until the operator folds or unfolds it.
     sources_are_open: Option<bool>,
     refused_are_open: bool,
     source_password: source_password::SourcePassword,
     inspector_is_open: bool,
     upload_is_open: bool,
     frequencies: Option<frequencies::Edit>,
-    /// Files that were held over the window in the last frame.
+    /// Files that the operator held over the window in the last frame.
     hovered: Vec<std::path::PathBuf>,
-    /// Places of the offers that were taken.
+    /// Indexes of the offers that the operator accepted.
     shown: Vec<usize>,
     /// Choice for the upload, until the upload takes it.
     uploads: Option<Choice>,
@@ -71,7 +71,7 @@ pub struct ElementsState {
 /// Place of the upload to the selected unit, in place of the inspector.
 pub struct UploadPlace {
     pub rect: Rect,
-    /// Satellites to choose for the upload, if it was just opened.
+    /// Satellites to choose for the upload, in the frame that opens the upload.
     pub choice: Option<Choice>,
 }
 
@@ -89,9 +89,9 @@ impl ElementsState {
     }
 }
 
-/// Draws the view. `settings_are_edited`: the station's settings have unsaved edits and must
-/// not change. Returns the place for the upload to the selected unit, when it is open in
-/// place of the inspector.
+/// Draws the view. With `settings_are_edited`, the station's settings have unsaved edits and must
+/// not change. Returns the place for the upload to the selected unit while the upload replaces the
+/// inspector.
 pub fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -118,7 +118,7 @@ pub fn show(
     let (head, rest) = main.split_top_bottom_at_y(main.top() + bar);
     intake::take(ui, model, state, commands);
     bar::show(ui, head, model, has_drawer, state, commands);
-    // A drawer over the table takes the pointer.
+    // A drawer above the table takes the pointer.
     let rest = if has_drawer { rest.with_max_x(right.left()) } else { rest };
 
     if let Some(intake) = &model.intake {
@@ -145,8 +145,8 @@ pub fn show(
     None
 }
 
-/// The satellite of the selected pass, else the first favourite with elements: favourites
-/// without a pass, as geostationary ones, can be uploaded too.
+/// Returns the satellite of the selected pass, else the first favourite with elements. The operator
+/// can also upload a favourite without a pass, such as a geostationary one.
 fn first_object(model: &Model) -> Option<u32> {
     let CatalogState::Ready(catalog) = &model.catalog else { return None };
     let of_pass = model.selected.map(|(number, _)| number);
@@ -154,7 +154,7 @@ fn first_object(model: &Model) -> Option<u32> {
     of_pass.into_iter().chain(model.station.favourites.numbers()).find(is_held)
 }
 
-/// Draws sources, groups, table and what belongs to them, in a view of height `height`.
+/// Draws the sources, groups and table with their controls, in a view of height `height`.
 #[allow(clippy::too_many_arguments)]
 fn show_main(
     ui: &mut Ui,
@@ -197,7 +197,7 @@ fn show_upload(ui: &Ui, rect: Rect, state: &mut ElementsState) -> UploadPlace {
     UploadPlace { rect, choice: state.uploads.take() }
 }
 
-/// Copies the elements of these objects.
+/// Copies the elements of these objects to the clipboard.
 fn copy(ui: &Ui, model: &Model, numbers: &[u32], form: Form) {
     let CatalogState::Ready(catalog) = &model.catalog else { return };
     let elements = numbers.iter().filter_map(|number| catalog.get(*number));

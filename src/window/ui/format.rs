@@ -1,4 +1,4 @@
-//! The formats of numbers and times.
+//! Formats of numbers and times.
 
 mod distances;
 mod times;
@@ -16,7 +16,7 @@ pub use times::{
     weekday,
 };
 
-/// Seconds.
+/// Length of a mean year, seconds.
 const YEAR: u64 = 31_556_952;
 const MANY_YEARS: u64 = 2 * YEAR;
 /// Typographic minus sign.
@@ -24,8 +24,8 @@ const MINUS: char = '\u{2212}';
 /// Separator of thousands.
 const THIN_SPACE: char = '\u{2009}';
 
-/// A number with `decimals` places and the typographic minus sign. A value that rounds to zero
-/// has no sign.
+/// Formats a number with `decimals` places and the typographic minus sign. A value that rounds to
+/// zero has no sign.
 pub fn number(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
         return "–".to_owned();
@@ -36,13 +36,13 @@ pub fn number(value: f64, decimals: usize) -> String {
     if negative { format!("{MINUS}{digits}") } else { digits }
 }
 
-/// A [`number`] with a plus sign if it is not negative.
+/// Formats a [`number`] with a plus sign if it is not negative.
 pub fn signed(value: f64, decimals: usize) -> String {
     let text = number(value, decimals);
     if text.starts_with(MINUS) || !value.is_finite() { text } else { format!("+{text}") }
 }
 
-/// The digits in groups of three, from five digits on.
+/// Groups the digits in threes, from five digits on.
 fn group_thousands(digits: &str) -> String {
     let whole = digits.find('.').unwrap_or(digits.len());
     if whole < 5 {
@@ -58,12 +58,12 @@ fn group_thousands(digits: &str) -> String {
     grouped
 }
 
-/// An angle with the degree sign.
+/// Formats an angle with the degree sign.
 pub fn degrees(value_deg: f64, decimals: usize) -> String {
     format!("{}°", number(value_deg, decimals))
 }
 
-/// Azimuth and elevation of an antenna with these capabilities, as far as they are known.
+/// Formats the known azimuth and elevation of an antenna with these capabilities.
 pub fn pointing(pointing: Pointing, can: Capabilities) -> String {
     let azimuth = pointing.azimuth.map(|azimuth| azimuth.wrapped_360().degrees());
     let angles = [azimuth, pointing.elevation.map(Angle::degrees)];
@@ -72,18 +72,18 @@ pub fn pointing(pointing: Pointing, can: Capabilities) -> String {
     numbers.collect::<Vec<_>>().join(", ")
 }
 
-/// A direction of the sky.
+/// Formats a direction in the sky as azimuth and elevation.
 pub fn pointing_at(direction: AzEl) -> String {
     let (azimuth, elevation) = (direction.azimuth_deg(), direction.elevation_deg());
     format!("{}, {}", degrees(azimuth, 1), degrees(elevation, 1))
 }
 
-/// A latitude with its side of the equator, such as 41.2° N.
+/// Formats a latitude with its side of the equator, such as 41.2° N.
 pub fn latitude(value_deg: f64, decimals: usize) -> String {
     lettered(value_deg, decimals, 'N', 'S')
 }
 
-/// A longitude with its side of Greenwich, such as 29.6° E.
+/// Formats a longitude with its side of Greenwich, such as 29.6° E.
 pub fn longitude(value_deg: f64, decimals: usize) -> String {
     lettered(value_deg, decimals, 'E', 'W')
 }
@@ -95,7 +95,8 @@ fn lettered(value_deg: f64, decimals: usize, plus: char, minus: char) -> String 
     format!("{digits}° {letter}")
 }
 
-/// Significant decimals of a degree for a controller with these capabilities, at most `max`.
+/// Returns the significant decimals of a degree for a controller with these capabilities, at most
+/// `max`.
 pub fn decimals(can: Capabilities, max: usize) -> usize {
     match can.position_step_deg {
         0.0 => max,
@@ -105,7 +106,7 @@ pub fn decimals(can: Capabilities, max: usize) -> usize {
     }
 }
 
-/// An azimuth as three digits with the degree sign; 359.6 is 000.
+/// Formats an azimuth as three digits with the degree sign; 359.6 becomes 000.
 pub fn azimuth(value_deg: f64) -> String {
     if !value_deg.is_finite() {
         return "–".to_owned();
@@ -113,14 +114,14 @@ pub fn azimuth(value_deg: f64) -> String {
     format!("{:03}°", (value_deg.rem_euclid(360.0).round() as u32) % 360)
 }
 
-/// The side of the sky at an azimuth, such as NE.
+/// Returns the side of the sky at an azimuth, such as NE.
 pub fn side_of_sky(azimuth_deg: f64) -> &'static str {
     const SIDES: [&str; 8] = ["N", "NE", "E", "SE", "S", "SW", "W", "NW"];
     let eighth = (azimuth_deg / 45.0).round().rem_euclid(8.0);
     SIDES.get(eighth as usize).copied().unwrap_or("N")
 }
 
-/// A size of a file, such as 12.3 MB.
+/// Formats the size of a file, such as 12.3 MB.
 pub fn bytes(count: u64) -> String {
     let count = count as f64;
     match count {
@@ -130,7 +131,7 @@ pub fn bytes(count: u64) -> String {
     }
 }
 
-/// A duration: m:ss, from one hour h:mm:ss, from one day in days.
+/// Formats a duration as m:ss, from one hour as h:mm:ss, from 100 hours in days.
 pub fn duration(seconds: f64) -> String {
     let seconds = seconds.abs().round() as u64;
     let (hours, minutes, rest) = (seconds / 3600, seconds / 60 % 60, seconds % 60);
@@ -141,18 +142,18 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// Seconds from the time that the clock shows at `now` to the time that is written for `time`.
-/// Both are cut to whole seconds; so the clock and a countdown add up to the time beside them.
+/// Returns the seconds from the clock display at `now` to the display of `time`. Both times are cut
+/// to whole seconds: the clock and a countdown add up to the time beside them.
 fn seconds_left(now: Timestamp, time: Timestamp) -> i64 {
     time.as_second() - now.as_second()
 }
 
-/// The time until `time`, as a [`duration`] that agrees with its [`countdown`].
+/// Formats the time until `time` as a [`duration`] that agrees with its [`countdown`].
 pub fn time_left(now: Timestamp, time: Timestamp) -> String {
     duration(seconds_left(now, time).max(0) as f64)
 }
 
-/// A countdown: T−mm:ss, from one hour T−h:mm:ss; T+ once the time is past.
+/// Formats a countdown as T−mm:ss, from one hour as T−h:mm:ss; T+ follows once the time is past.
 pub fn countdown(now: Timestamp, time: Timestamp) -> String {
     let left = seconds_left(now, time);
     let sign = if left < 0 { '+' } else { MINUS };
@@ -165,7 +166,7 @@ pub fn countdown(now: Timestamp, time: Timestamp) -> String {
     }
 }
 
-/// An age: 0.3 s, 14 s, 3 min, 8 h 52 min, 1 d 3 h, 12 d.
+/// Formats an age: 0.3 s, 14 s, 3 min, 8 h 52 min, 1 d 3 h, 12 d.
 pub fn age(seconds: f64) -> String {
     let seconds = seconds.max(0.0);
     let whole = seconds as u64;
@@ -180,13 +181,13 @@ pub fn age(seconds: f64) -> String {
     }
 }
 
-/// A count with its noun, such as "1 source" and "3 sources".
+/// Formats a count with its noun, such as "1 source" and "3 sources".
 pub fn counted(count: usize, noun: &str) -> String {
     let plural = if count == 1 { "" } else { "s" };
     format!("{} {noun}{plural}", number(count as f64, 0))
 }
 
-/// Names joined into a list, such as "Satrak, Genius and RC2000C".
+/// Joins names into a list, such as "Satrak, Genius and RC2000C".
 pub fn list(names: &[impl AsRef<str>]) -> String {
     let mut text = String::new();
     for (index, name) in names.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! A page to print for the operator who takes over the shift: the next 24 hours of the schedule. The
+//! Page to print for the operator who takes over the shift: the next 24 hours of the schedule. The
 //! page counts the entries that do not fit.
 
 mod ages;
@@ -26,18 +26,18 @@ use crate::{
     station::{AntennaId, Station},
 };
 
-/// Height of the head of the page, millimetres; as in the style sheet.
+/// Height of the page head, millimetres; equals the value in the style sheet.
 const HEAD_MM: f64 = 15.0;
-/// Least height of the notes, with the signatures, millimetres.
+/// Min height of the notes with the signatures, millimetres.
 const NOTES_MM: f64 = 24.0;
-/// Height that is kept for passes that are left out beside many entries, millimetres.
+/// Height reserved for left-out passes beside many entries, millimetres.
 const FEW_LEFT_OUT_MM: f64 = 38.0;
 
-/// The part of a schedule that the sheet shows, and what it is made from.
+/// Part of a schedule that the sheet shows, with its sources.
 pub struct HandOverSheet<'a> {
     station: &'a Station,
     schedule: &'a Schedule,
-    /// By catalog number.
+    /// Elements and propagators by catalog number.
     satellites: &'a BTreeMap<u32, (&'a Elements, &'a Propagator)>,
     start: Timestamp,
     end: Timestamp,
@@ -45,8 +45,8 @@ pub struct HandOverSheet<'a> {
 }
 
 impl<'a> HandOverSheet<'a> {
-    /// The first 24 hours of a schedule that was made for the time between `start` and `end`,
-    /// printed at `printed`.
+    /// Creates the sheet for the first 24 hours of a schedule for the time between `start` and
+    /// `end`, printed at `printed`.
     pub fn new(
         station: &'a Station,
         schedule: &'a Schedule,
@@ -58,14 +58,14 @@ impl<'a> HandOverSheet<'a> {
         Self { station, schedule, satellites, start, end, printed }
     }
 
-    /// The page, as HTML.
+    /// Returns the page as HTML.
     pub fn html(&self) -> String {
         let entries = entries::Table::new(self);
         let left_out = left_out::List::new(self);
         let ages = ages::List::new(self);
         let fixed_mm = HEAD_MM + self.time_line_mm() + ages.height_mm() + NOTES_MM;
         let room_mm = HEIGHT_MM - fixed_mm - 5.0 * GAP_MM;
-        // The entries come first, but for a few lines of what is left out.
+        // The entries get the room first, except a few lines for the left-out passes.
         let few_mm = left_out.height_mm(FEW_LEFT_OUT_MM);
         let laid_out = entries.lay_out(room_mm - few_mm);
         let left_mm = room_mm - laid_out.height_mm();
@@ -80,7 +80,7 @@ impl<'a> HandOverSheet<'a> {
         page::whole(&format!("Hand-over sheet, {}", self.station.name), &content)
     }
 
-    /// Which station, which hours, and how good the schedule is known to be.
+    /// Returns the page head: the station, the hours, and the proven quality of the schedule.
     fn head(&self) -> Markup {
         let minute = |time| format!("{} {}Z", format::date(time), format::minute_of_day(time));
         let span = format!("{} to {} (UTC)", minute(self.start), minute(self.end));
@@ -92,14 +92,14 @@ impl<'a> HandOverSheet<'a> {
         page::head(&self.station.name, "Hand-over sheet", lines)
     }
 
-    /// Name of a satellite; its number where it has none.
+    /// Returns the name of a satellite, or its number if it has no known name.
     fn name(&self, number: u32) -> String {
         let known_satellite = self.satellites.get(&number);
         known_satellite
             .map_or_else(|| number.to_string(), |(elements, _)| page::printable(&elements.label()))
     }
 
-    /// Name of a satellite with the time of AOS.
+    /// Returns the name of a satellite with the time of AOS.
     fn named_pass(&self, pass: PassKey) -> String {
         format!("{} {}", self.name(pass.satellite), format::minute_of_day(pass.aos))
     }
@@ -110,7 +110,7 @@ impl<'a> HandOverSheet<'a> {
     }
 }
 
-/// Lines to write on, and the signatures at the bottom of the page.
+/// Returns lines to write on, and the signatures at the bottom of the page.
 fn notes() -> Markup {
     let content = html! {
         div.lines {}

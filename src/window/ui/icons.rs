@@ -1,4 +1,4 @@
-//! Line icons, painted on a grid of 20 by 20 with a stroke of 1.5.
+//! Line icons on a grid of 20 by 20 with a stroke of 1.5.
 
 mod pen;
 mod shapes;
@@ -7,7 +7,7 @@ use egui::{Color32, Painter, Rect};
 
 use pen::Pen;
 
-/// Every icon of the window.
+/// Icons of the window, by their meaning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Icon {
     /// STOP, and alarms of the first priority.
@@ -16,19 +16,19 @@ pub enum Icon {
     Bell,
     /// Caution, and alarms of the second priority.
     Warning,
-    /// Good.
+    /// Good state.
     Check,
-    /// Impossible, fault.
+    /// Fault, or an impossible pass.
     Cross,
-    /// Left out, unknown.
+    /// Left-out pass, or an unknown value.
     Dash,
-    /// Refused for now.
+    /// Locked control, or a refusal for now.
     Lock,
-    /// Opens below; an open fold.
+    /// Menu below, or an open fold.
     ChevronDown,
-    /// Opens beside; a closed fold; sent.
+    /// Menu beside, a closed fold, or a sent line.
     ChevronRight,
-    /// Received.
+    /// Received line.
     ChevronLeft,
     /// View: Operate.
     CrossHair,
@@ -48,11 +48,11 @@ pub enum Icon {
     Sliders,
     /// Link: replies in time.
     Disc,
-    /// Link: late.
+    /// Link: late replies.
     HalfDisc,
-    /// Link: lost.
+    /// Link: no replies.
     CrossedRing,
-    /// Link: switched off.
+    /// Link: disconnected.
     OpenRing,
     /// Layers of the sky plot.
     Layers,
@@ -62,17 +62,17 @@ pub enum Icon {
     Question,
     /// A search.
     Search,
-    /// Typed and not sent yet.
+    /// Typed value that is not sent yet.
     Pencil,
-    /// Shows what is hidden.
+    /// Button that reveals hidden text.
     Eye,
-    /// Put off until a time.
+    /// Time of a later event.
     Clock,
     /// A favourite.
     Star,
-    /// No favourite.
+    /// Satellite that is no favourite.
     OpenStar,
-    /// Adds something.
+    /// Button that adds something.
     Plus,
     /// A source: a server.
     Server,
@@ -80,15 +80,15 @@ pub enum Icon {
     File,
     /// A source: a folder.
     Folder,
-    /// A source: what comes with the program.
+    /// A source: the elements that come with Azel.
     Package,
-    /// To a unit.
+    /// Transfer to a unit.
     Upload,
-    /// To a file.
+    /// Export to a file.
     Download,
-    /// To the clipboard.
+    /// Copy to the clipboard.
     Copy,
-    /// Asks again.
+    /// Button that asks again.
     Refresh,
 }
 

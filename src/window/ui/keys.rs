@@ -1,4 +1,4 @@
-//! The table of keyboard shortcuts, from which the list of keys is drawn as well.
+//! Table of keyboard shortcuts, which is also the source of the list of keys.
 
 mod act;
 pub mod digits;
@@ -25,53 +25,53 @@ use crate::{
 };
 use act::{Act, OffsetKey, ReplayKey};
 
-/// One line of the list of keys.
+/// Line of the list of keys.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Binding {
     /// Modifiers held with each of the keys.
     pub modifiers: Modifiers,
-    /// The keys, each with its effect.
+    /// Keys, each with its effect.
     keys: &'static [(Key, Act)],
-    /// Scope of the keys.
+    /// Scope in which the keys work.
     pub place: KeyScope,
     /// Effect of the keys, below a heading that names their scope.
     pub does: &'static str,
 }
 
-/// Scope of a key.
+/// Views and situations in which a key works.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum KeyScope {
-    /// Everywhere, also while typing.
+    /// All views, also while the operator types.
     Everywhere,
-    /// In every view, but not while typing.
+    /// All views, but not while the operator types.
     Views,
-    /// In the Operate view, but not while typing.
+    /// Operate view, but not while the operator types.
     Operate,
-    /// In the Plan view, but not while typing.
+    /// Plan view, but not while the operator types.
     Plan,
-    /// In the Record view, but not while typing.
+    /// Record view, but not while the operator types.
     Record,
-    /// In the Map view, but not while typing.
+    /// Map view, but not while the operator types.
     Map,
-    /// In a replay, in every view, but not while typing.
+    /// All views of a replay, but not while the operator types.
     Replay,
-    /// In the Elements view, also while typing.
+    /// Elements view, also while the operator types.
     Elements,
-    /// In the Preferences view, also while typing.
+    /// Preferences view, also while the operator types.
     Preferences,
-    /// In the focused control, which handles the key itself.
+    /// Focused control, which handles the key itself.
     Focus,
 }
 
 impl Binding {
-    /// Returns the effect of its keys, with the view that they work in.
+    /// Returns the effect of the keys, with the view that they work in.
     pub fn does_where(&self) -> String {
         let place = match self.place {
             KeyScope::Plan => "in Plan: ",
             KeyScope::Record => "in Record: ",
             KeyScope::Map => "in Map: ",
             KeyScope::Replay => "in a replay: ",
-            // Operate is the view that Azel opens with; the others name their views themselves.
+            // Azel opens with the Operate view; the effects of the other scopes name their views.
             KeyScope::Everywhere
             | KeyScope::Views
             | KeyScope::Operate
@@ -82,12 +82,12 @@ impl Binding {
         format!("{place}{}", self.does)
     }
 
-    /// Keys of the binding.
+    /// Returns the keys of the binding.
     pub fn keys(&self) -> impl Iterator<Item = Key> {
         self.keys.iter().map(|(key, _)| *key)
     }
 
-    /// Returns `true` for the key of STOP.
+    /// Returns `true` for the STOP key.
     pub fn is_stop(&self) -> bool {
         self.keys().eq([Key::Escape])
     }
@@ -103,7 +103,7 @@ const fn with_modifiers(modifiers: Modifiers, binding: Binding) -> Binding {
 
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
-/// All keys, in the order of the list. The app handles the key of STOP before anything else.
+/// All keys, in the order of the list. The app handles the STOP key before all others.
 pub const ALL: [Binding; 42] = [
     row(
         KeyScope::Focus,
@@ -163,7 +163,7 @@ pub const ALL: [Binding; 42] = [
         ],
         "play, previous event, next, leave",
     ),
-    // They come before those of the views, which have the same keys.
+    // The keys of a replay precede those of the views, which use the same keys.
     with_modifiers(
         Modifiers::SHIFT,
         row(
@@ -240,7 +240,7 @@ pub const ALL: [Binding; 42] = [
         ],
         "while tracking: time offset −100, +100 ms, reset, undo",
     ),
-    // More modifiers come first: fewer of them fit as well.
+    // Bindings with more modifiers come first: a binding with fewer modifiers would match as well.
     with_modifiers(
         CTRL_SHIFT,
         row(
@@ -418,7 +418,7 @@ pub const ALL: [Binding; 42] = [
 
 /// State that the keys change, apart from the model.
 pub struct KeyTargets<'a> {
-    /// The open question.
+    /// Open question.
     pub question: &'a mut Option<Question>,
     pub operate: &'a mut OperateState,
     pub elements: &'a mut ElementsState,
@@ -427,13 +427,13 @@ pub struct KeyTargets<'a> {
     pub plan: &'a mut PlanState,
     pub record: &'a mut RecordState,
     pub preferences: &'a mut PreferencesState,
-    /// The list of keys is open.
+    /// Flag: the list of keys is open.
     pub list_open: &'a mut bool,
 }
 
 /// Handles the keys of this frame.
 pub fn take(ui: &Ui, model: &Model, targets: &mut KeyTargets<'_>, commands: &mut Vec<UiCommand>) {
-    // A typed letter is no shortcut, and a dialog and a menu have keys of their own.
+    // A typed letter is no shortcut, and a dialog or a menu handles its own keys.
     let typing = ui.text_edit_focused()
         || menu::is_open(ui)
         || targets.question.is_some()

@@ -1,11 +1,9 @@
-//! Fewer pixels to shade for the same picture.
+//! Shapes with fewer pixels to shade for the same picture.
 //!
-//! egui gives every shape a soft edge, also where the edge lies on the border
-//! of two pixels, and fills round shapes with slivers that all meet in one
-//! point. A graphics card does not mind. A software renderer, on a remote desk
-//! or a machine without a card, shades the same pixel again and again. So what
-//! is upright goes out as two plain triangles, and what is round as few and
-//! compact ones.
+//! egui gives every shape a soft edge, even on the border of two pixels. It fills round shapes with
+//! slivers that all meet in one point. A software renderer then shades the same pixels again and
+//! again; a graphics card does not mind. These shapes draw upright edges as two plain triangles,
+//! and round ones as few compact triangles.
 
 mod mesh;
 #[cfg(test)]
@@ -17,10 +15,10 @@ use egui::{
     epaint::{CircleShape, ColorMode, CornerRadiusF32, PathShape, RectShape},
 };
 
-/// Minimum radius, points: egui draws smaller discs as one textured square.
+/// Min radius of a disc to replace, points: egui draws smaller discs as one textured square.
 const SMALLEST_DISC: f32 = 12.0;
 
-/// Rewrites the shapes of every frame before they are cut into triangles.
+/// Plugin that rewrites the shapes of every frame before egui cuts them into triangles.
 #[derive(Debug, Default)]
 pub(super) struct LeanShapes;
 
@@ -37,7 +35,7 @@ impl Plugin for LeanShapes {
     }
 }
 
-/// Replaces `shape`, at `scale` pixels a point, where there is a leaner one.
+/// Replaces `shape` if there is a leaner one. `scale` is in pixels per point.
 fn rewrite(shape: &mut Shape, scale: f32) {
     let leaner = match shape {
         Shape::Vec(shapes) => {
@@ -57,7 +55,7 @@ fn rewrite(shape: &mut Shape, scale: f32) {
     }
 }
 
-/// A line between two points: upright and of whole pixels, or thin.
+/// Returns a lean line between two points, if it is thin, or upright and whole pixels wide.
 fn line(start: Pos2, end: Pos2, stroke: Stroke, scale: f32) -> Option<Shape> {
     if stroke.is_empty() || !(start.x + start.y + end.x + end.y).is_finite() || start == end {
         return None;
@@ -71,7 +69,7 @@ fn line(start: Pos2, end: Pos2, stroke: Stroke, scale: f32) -> Option<Shape> {
     (width_px <= 1.0).then(|| mesh::thin_line(start, end, stroke, scale))
 }
 
-/// One dash of a dashed line.
+/// Returns a lean dash of a dashed line.
 fn dash(path: &PathShape, scale: f32) -> Option<Shape> {
     let ColorMode::Solid(colour) = path.stroke.color else { return None };
     match path.points[..] {
@@ -82,10 +80,10 @@ fn dash(path: &PathShape, scale: f32) -> Option<Shape> {
     }
 }
 
-/// An upright line of whole pixels, placed as egui places it.
+/// Returns an upright line of whole pixels, placed as egui places it.
 fn upright(start: Pos2, last: Pos2, stroke: Stroke, scale: f32) -> Shape {
     let vertical = (last.x - start.x).abs() <= 0.0;
-    // A quarter of a pixel off each end, so that ends on pixel borders stay there.
+    // Shorten each end by a quarter of a pixel: ends on pixel borders then stay there.
     let shorter = (last - start).normalized() * (0.25 / scale);
     let [start, last] = [start + shorter, last - shorter].map(|mut end| {
         let (across, along) =
@@ -99,7 +97,7 @@ fn upright(start: Pos2, last: Pos2, stroke: Stroke, scale: f32) -> Shape {
     mesh::plain(&[Rect::from_two_pos(start, last).expand2(grown)], stroke.color)
 }
 
-/// A rectangle, with or without rounded corners and a border.
+/// Returns a lean rectangle, with or without rounded corners and a border.
 fn rectangle(shape: &RectShape, scale: f32) -> Option<Shape> {
     let RectShape { rect, corner_radius, fill, stroke, .. } = *shape;
     let bordered = !stroke.is_empty();
@@ -144,7 +142,7 @@ fn rectangle(shape: &RectShape, scale: f32) -> Option<Shape> {
     Some(Shape::Vec(parts))
 }
 
-/// The four sides of a border inside `rect`.
+/// Returns the four sides of a border inside `rect`.
 fn frame(rect: Rect, width: f32) -> [Rect; 4] {
     let inner = rect.shrink(width);
     [
@@ -155,7 +153,7 @@ fn frame(rect: Rect, width: f32) -> [Rect; 4] {
     ]
 }
 
-/// A large disc or circle.
+/// Returns a lean disc or circle, if it is large.
 fn disc(shape: CircleShape, scale: f32) -> Option<Shape> {
     let CircleShape { center, radius, fill, stroke } = shape;
     if radius < SMALLEST_DISC || !(center + Vec2::splat(radius)).is_finite() {

@@ -1,5 +1,5 @@
-//! The Map view: the satellites over the globe, a table of where they are, and the selected one
-//! in detail.
+//! Map view: the satellites over the globe, a table of their positions, and details of the selected
+//! one.
 
 mod bar;
 mod canvas;
@@ -32,28 +32,28 @@ use crate::model::{
     globe::{GlobeSatellite, MapDirection},
 };
 
-/// Largest height of the bar below the map.
+/// Max height of the bar below the map, points.
 pub(super) const FOOT: f32 = table::MAX_BAR;
-/// In a window below this width the inspector is a drawer.
+/// Window width below which the inspector is a drawer, points.
 const DRAWER_BELOW: f32 = 1100.0;
 const INSPECTOR: f32 = 344.0;
 const PADDING: f32 = 16.0;
-/// Rows for which the table must have room beside the map; else it is a drawer over it.
+/// Min number of rows of a table below the map; with less room the table is a drawer.
 const ROWS: f32 = 3.0;
-/// Rows of the table for which the map gives way, down to this part of its height.
+/// Number of rows for which the map shrinks, down to [`MIN_MAP`] of its height.
 const WANTED_ROWS: usize = 8;
 const MIN_MAP: f32 = 0.85;
 
-/// Layers of the map.
+/// Choice of the layers that the map shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
-// Independent check boxes.
+// The layers are independent check boxes.
 #[allow(clippy::struct_excessive_bools)]
 pub struct MapLayers {
-    /// The ground track of the selected satellite.
+    /// Ground track of the selected satellite.
     pub tracks: bool,
-    /// The ground tracks of the other satellites.
+    /// Ground tracks of the other satellites.
     pub other_tracks: bool,
-    /// The ground from which each satellite is seen.
+    /// Areas from which each satellite is visible.
     pub footprints: bool,
     /// Day and night.
     pub terminator: bool,
@@ -76,7 +76,7 @@ impl Default for MapLayers {
     }
 }
 
-/// The satellites on the map, besides the selected one.
+/// Satellites on the map, besides the selected one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Shown {
     #[default]
@@ -85,7 +85,7 @@ enum Shown {
 }
 
 impl Shown {
-    /// The selected satellite is always shown.
+    /// Returns `true` if the map shows the satellite: the selected one, or one of the chosen kind.
     fn has(self, satellite: &GlobeSatellite) -> bool {
         satellite.is_selected || self.counts(satellite)
     }
@@ -98,7 +98,7 @@ impl Shown {
     }
 }
 
-/// Layers, section of the map, open drawers, and shapes that are kept.
+/// Layers, section of the map, open drawers, and cached shapes.
 #[derive(Default)]
 pub struct MapState {
     pub layers: MapLayers,
@@ -113,7 +113,7 @@ pub struct MapState {
 }
 
 impl MapState {
-    /// Zooms in or out of the middle.
+    /// Zooms in or out around the middle of the map.
     pub fn change_zoom(&mut self, is_closer: bool) {
         self.zoom.step(is_closer);
     }
@@ -123,18 +123,18 @@ impl MapState {
         self.zoom = Zoom::default();
     }
 
-    /// Opens or closes the list of layers.
+    /// Requests that the bar opens or closes the list of layers.
     pub fn toggle_layers(&mut self) {
         self.layers_key = true;
     }
 
-    /// The next satellite on that side of the selected one.
+    /// Returns the next shown satellite on that side of the selected one.
     pub fn nearest(&self, model: &Model, direction: MapDirection) -> Option<u32> {
         model.globe.nearest(direction, |satellite| self.shown.has(satellite))
     }
 }
 
-/// Draws the view. The inspector has room beside the map if `window` is wide enough.
+/// Draws the view. The inspector stands beside the map if `window` is wide enough.
 pub fn show(
     ui: &mut Ui,
     window: Rect,
@@ -155,7 +155,7 @@ pub fn show(
 
     bar::show(ui, head, model, has_drawer, state);
     let areas = Areas::new(rest, shown.len(), state.table_is_open);
-    // A drawer over the map takes the pointer.
+    // A drawer above the map takes the pointer.
     let visible = areas.map.with_max_x(right.left().min(areas.map.right()));
     let visible = visible.with_max_y(areas.table.top().min(visible.bottom()));
     canvas::show(ui, areas.map, visible, model, &shown, state, commands);
@@ -169,11 +169,11 @@ pub fn show(
     }
 }
 
-/// The parts below the view bar.
+/// Parts below the view bar.
 struct Areas {
     map: Rect,
     table: Rect,
-    /// The table lies over the map and opens from its bar.
+    /// Flag: the table lies over the map and opens from its bar.
     is_drawer: bool,
 }
 
@@ -195,7 +195,7 @@ impl Areas {
     }
 }
 
-/// The largest map of the whole world in `rect`.
+/// Returns the largest map of the whole world that fits in `rect`.
 fn world_in(rect: Rect) -> Rect {
     let width = rect.width().min(2.0 * rect.height());
     Rect::from_center_size(pos2(rect.center().x, rect.center().y), vec2(width, width / 2.0))

@@ -1,4 +1,4 @@
-//! The menus of a pass, of a satellite in the sky, and of the sky.
+//! Menus of a pass, of a satellite in the sky, and of the sky.
 
 use egui::{Id, Ui};
 
@@ -15,7 +15,7 @@ use crate::{
     model::{Model, UiCommand, View},
 };
 
-/// Shows the entries of a pass in the menu of the row or bar with this id.
+/// Function that shows the entries of a pass in the menu of the row or bar with this id.
 pub type PassMenu<'a> = dyn Fn(&mut Ui, Id, PassListKey, &mut Vec<UiCommand>) + 'a;
 
 /// Shows the entries of a pass in the menu of `response`.
@@ -34,7 +34,8 @@ pub(super) fn pass(
     of_satellite(ui, response, model, &predicted.satellite, commands);
 }
 
-/// Shows the entries of a satellite of the sky. Returns `true` if the antenna is to look at it.
+/// Shows the entries of a satellite in the sky. Returns `true` if the operator chose to point the
+/// antenna at it.
 pub(super) fn satellite(
     ui: &mut Ui,
     response: Id,
@@ -54,7 +55,8 @@ pub(super) fn satellite(
     sky(ui, response, model, direction)
 }
 
-/// Shows the entries of a direction. Returns `true` if the antenna is to look there.
+/// Shows the entries of a direction. Returns `true` if the operator chose to point the antenna
+/// there.
 pub(super) fn sky(ui: &mut Ui, response: Id, model: &Model, direction: AzEl) -> bool {
     let looks = model.antenna().is_some_and(|antenna| {
         let words = format!("Point {} here\u{2026}", antenna.config.name);

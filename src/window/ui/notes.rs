@@ -1,6 +1,5 @@
-//! Notes of the passes to come that the operator wanted to be reminded of, and of what became of a
-//! file or a change. They lie over the views, so that nothing moves under the pointer, and clear of
-//! the antenna card.
+//! Notes of upcoming passes with a reminder, and of the outcome of a saved file or a change. They
+//! lie over the views, so nothing moves under the pointer, and beside the antenna card.
 
 use egui::{Align2, Area, Frame, Label, Margin, Order, Rect, RichText, Stroke, Ui, vec2};
 
@@ -10,25 +9,25 @@ use crate::{
     model::{Model, UiCommand, View, export::SavedFile},
 };
 
-/// Maximum width.
+/// Max width of a note, points.
 const WIDTH: f32 = 560.0;
-/// Width left free at the right, for the antenna card.
+/// Width left free at the right for the antenna card, points.
 const RIGHT: f32 = 376.0;
 const GAP: f32 = 16.0;
-/// Thickness of the bar at the left.
+/// Thickness of the bar at the left, points.
 const BAR: f32 = 3.0;
 
 /// Contents of the notes, besides the reminders of the model.
 #[derive(Debug, Default)]
 pub struct Notes {
-    /// The file that was saved last, or what was not done and why; until it is closed.
+    /// Last saved file, or the reason why an action failed; kept until the operator closes it.
     pub news: Option<Result<SavedFile, String>>,
-    /// Passes whose reminders were closed.
+    /// Passes whose reminders the operator closed.
     closed: Vec<PassListKey>,
 }
 
 impl Notes {
-    /// Shows the file, and the reminders before their AOS that are not closed.
+    /// Shows the file, and the reminders before AOS that the operator has not closed.
     pub fn show(&mut self, ui: &Ui, room: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
         let is_known =
             |pass: &PassListKey| model.reminders.iter().any(|candidate| candidate.pass == *pass);
@@ -69,7 +68,7 @@ fn frame(ui: &Ui, room: Rect, view: View, lines: impl FnOnce(&mut Ui)) {
         });
 }
 
-/// Height left free below, for the bars at the foot of the views.
+/// Returns the height left free for the bars at the foot of the views, points.
 fn below(view: View) -> f32 {
     match view {
         View::Operate | View::Plan | View::Elements | View::Record => GAP,

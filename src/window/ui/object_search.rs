@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::orbit::{Catalog, Elements};
 
-/// Number of objects that a search shows.
+/// Max number of objects that a search shows.
 const FOUND: usize = 40;
 
 /// Text to search for, and the objects found.
@@ -21,7 +21,7 @@ struct Found {
 }
 
 impl ObjectSearch {
-    /// Catalog numbers and names of what was found.
+    /// Returns the catalog numbers and names of the found objects.
     pub(super) fn objects(&mut self, catalog: &Arc<Catalog>) -> &[(u32, String)] {
         let is_known =
             |found: &Found| Arc::ptr_eq(&found.catalog, catalog) && found.typed == self.typed;
@@ -34,7 +34,7 @@ impl ObjectSearch {
     }
 }
 
-/// Catalog number and name of an object.
+/// Returns the catalog number and name of an object.
 pub(super) fn named(elements: &Elements) -> (u32, String) {
     let name = if elements.name().is_empty() { "No name" } else { elements.name() };
     (elements.catalog_number(), name.to_owned())

@@ -37,37 +37,37 @@ use side_card::SideCard;
 use sky_time::SkyTime;
 pub use sky_time::row::LONG_STEP_S;
 
-/// Height of the edge that marks the card of the selected antenna among several.
+/// Height of the edge that marks the selected antenna's card among several, points.
 const SELECTED_EDGE: f32 = 3.0;
-/// Wait for one more frame.
+/// Delay of one additional frame.
 const NEXT_FRAME: Duration = Duration::from_millis(1);
 
 /// Input, open parts and folds of this view.
 #[derive(Default)]
 pub struct OperateState {
-    /// The antenna card.
+    /// State of the antenna card.
     pub card: CardState,
-    /// The strip of the demo station, or its room, is in the window.
+    /// Flag: the window shows the strip of the demo station, or keeps its room.
     pub has_banner: bool,
-    /// The pass list lies over the plot, in a small window.
+    /// Flag: the pass list lies over the plot, in a small window.
     pub drawer_open: bool,
-    /// Number of hours in the timeline.
+    /// Zoom of the timeline: its number of hours.
     pub zoom: Zoom,
-    /// The operator's width of the list, points.
+    /// Width of the list chosen by the operator, points.
     pub list_width: Option<u32>,
-    /// The sky plot.
+    /// State of the sky plot.
     pub sky: SkyPlotState,
     pub sky_time: SkyTime,
-    /// The time of the pass that the operator marks in the sky plot or in the profile.
+    /// Time of the pass that the operator marks in the sky plot or in the profile.
     marked: Option<Timestamp>,
     profile: ProfileState,
     ghost: GhostState,
-    /// The pass list.
+    /// State of the pass list.
     pub passes: PassListState,
     found: filter::FoundPasses,
-    /// The antenna whose card was shown last.
+    /// Antenna of the card in the last frame.
     shown_antenna: Option<AntennaId>,
-    /// The cards beside it in a wide window.
+    /// Cards beside the antenna card in a wide window.
     side_cards: [SideCard; SIDE_CARDS],
 }
 
@@ -78,7 +78,7 @@ impl OperateState {
         self.passes.filter.open();
     }
 
-    /// The pass `down` places below the selected one in the filtered list.
+    /// Returns the pass `down` rows below the selected one in the filtered list.
     pub fn neighbour(&mut self, model: &Model, down: isize) -> Option<PassListKey> {
         let listed = model.upcoming();
         let found = self.found.arrange(model, &self.passes.filter);
@@ -92,13 +92,14 @@ impl OperateState {
         listed.get(place).map(PredictedPass::key)
     }
 
-    /// Call while another view is shown.
+    /// Hides the card and returns the sky plot to the current time, when another view replaces this
+    /// one.
     pub fn leave(&mut self, commands: &mut Vec<UiCommand>) {
         self.leave_card(commands);
         self.sky_time.return_to_now();
     }
 
-    /// Call when the card disappears. Releases a key that is held there.
+    /// Releases a held key when the card disappears.
     pub fn leave_card(&mut self, commands: &mut Vec<UiCommand>) {
         self.ghost.leave(commands);
         for card in &mut self.side_cards {
@@ -108,9 +109,9 @@ impl OperateState {
     }
 }
 
-/// Draws the view into `rect` of the `window`. `live` is the station that `model` shows, or the live
-/// one if that is a replay.
-// The window, the state, and the receivers of requests.
+/// Draws the view into `rect` of the `window`. `live` is the station that `model` shows, or the
+/// live station during a replay.
+// The arguments are the window, the state, and the receivers of requests.
 #[allow(clippy::too_many_arguments)]
 pub fn show(
     ui: &mut Ui,
@@ -166,14 +167,14 @@ pub fn show(
     }
     if state.marked != marked {
         state.marked = marked;
-        // The plot is drawn before the profile.
+        // Draw again: the plot came before the profile in this frame.
         ui.request_repaint_after_for(NEXT_FRAME, egui::ViewportId::ROOT);
     }
     if let Some(list) = areas.list {
         if areas.small {
             // The drawer lies over the plot and needs a background of its own.
             ui.painter().rect_filled(list, 0.0, t.bg1);
-            // Nothing falls through it on the sky. For the pointer alone: Tab skips it.
+            // The drawer keeps the pointer off the sky below. It takes no keys: Tab skips it.
             let id = ui.make_persistent_id("drawer");
             let drawer = ui.interact(list, id, Sense::CLICK | Sense::DRAG);
             drawer.widget_info(|| WidgetInfo::labeled(Role::Group, true, "Drawer of the passes"));
@@ -186,7 +187,7 @@ pub fn show(
         let neighbours = neighbours.filter_map(|(antenna, card)| Some((antenna?, card.card())));
         let mut cards: Vec<_> =
             std::iter::once((selected, &mut state.card)).chain(neighbours).collect();
-        // As in the station: selecting another antenna makes no two cards change places.
+        // Keep the order of the station: selecting another antenna must not swap two cards.
         cards.sort_by_key(|(antenna, _)| {
             model.antennas.iter().position(|model_antenna| model_antenna.id() == antenna.id())
         });

@@ -1,4 +1,4 @@
-//! When a replay ends by itself.
+//! Automatic end of a replay.
 
 use std::sync::Arc;
 
@@ -18,12 +18,12 @@ fn time(second: i64) -> Timestamp {
     start + second.seconds()
 }
 
-/// A live station at this second.
+/// Returns a live station at this second.
 fn live(second: i64) -> Model {
     Model::before_anything(Moment { utc: time(second), steady: Instant::now() })
 }
 
-/// The same with a pass that an antenna is to track from `start` on.
+/// Returns a live station with a pass that an antenna is to track from `start` on.
 fn planned(second: i64, start: i64) -> Model {
     let mut model = live(second);
     let (start, end) = (time(start), time(start + 600));

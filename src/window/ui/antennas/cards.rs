@@ -28,20 +28,20 @@ use crate::{
 const NONE: &str = "This unit keeps no settings that can be read or changed over its link. Mount, \
                     limits and connection are in Preferences.";
 
-/// Gap between the columns, and around them.
+/// Gap between the columns and around them, points.
 const GAP: f32 = 16.0;
 const PADDING: i8 = 12;
-/// Maximum width of a card, as its fields need it.
+/// Max width of a card, points: its fields need no more.
 const WIDEST: f32 = 760.0;
 
 /// Actions of a card other than editing its fields.
 pub(super) struct CardEffects<'a> {
     pub(super) commands: &'a mut Vec<UiCommand>,
-    /// Set to open the dialog that unlocks the service functions.
+    /// Flag: open the dialog that unlocks the service functions.
     pub(super) unlock: &'a mut bool,
 }
 
-/// Shows all cards and scrolls to the one of `scroll_to`.
+/// Shows all cards and scrolls to the card of `scroll_to`.
 pub(super) fn show(
     ui: &mut Ui,
     unit: &ShownUnit<'_>,
@@ -71,7 +71,8 @@ pub(super) fn show(
     });
 }
 
-/// Says where the settings of a unit without groups are, with the ways on.
+/// Explains where to find the settings of a unit without groups, and offers buttons that lead
+/// there.
 fn none(ui: &mut Ui, unit: &ShownUnit<'_>, commands: &mut Vec<UiCommand>) {
     row::note(ui, Some(Icon::Info), NONE, theme::tokens(ui).t2);
     ui.add_space(8.0);
@@ -91,8 +92,8 @@ fn none(ui: &mut Ui, unit: &ShownUnit<'_>, commands: &mut Vec<UiCommand>) {
     }
 }
 
-/// Splits the cards into columns, of which at most `fitting` have room. The third one takes the
-/// lower cards of the left one.
+/// Splits the cards into at most `fitting` columns. A third column takes the lower cards of the
+/// left one.
 fn columns(all: &[Section], fitting: usize) -> Vec<Vec<Section>> {
     if fitting < 2 {
         return vec![all.to_vec()];
@@ -153,7 +154,7 @@ fn fill(
     section: &Section,
     effects: &mut CardEffects<'_>,
 ) {
-    // Several cards may have the same controls.
+    // The salt separates cards that have the same controls.
     let group = UiBuilder::new()
         .id_salt(section.title)
         .accessibility_role(Role::Group)
@@ -171,7 +172,7 @@ fn title(ui: &mut Ui, words: &str) {
     ui.add_space(4.0);
 }
 
-/// A heading within a card.
+/// Draws a heading within a card.
 pub(super) fn subtitle(ui: &mut Ui, words: &str) {
     let t = theme::tokens(ui);
     ui.add_space(8.0);

@@ -10,15 +10,15 @@ use crate::{
     ui::widgets::hold_button::HoldState,
 };
 
-/// Edits of one group. Without `Debug`: a password may be among them.
+/// Edits of one group. The type has no `Debug`, because an edit may be a password.
 #[derive(Default)]
 pub(super) struct Draft {
     edits: BTreeMap<&'static str, Edit>,
-    /// Values shown as on the unit when the first edit began.
+    /// Values on the unit when the first edit began.
     expected: Option<Values>,
     sent: Option<Sent>,
     outcomes: BTreeMap<&'static str, Outcome>,
-    /// Values of the unit when an edit was proved.
+    /// Values that the unit held when Azel verified an edit.
     proved: Values,
 }
 
@@ -29,7 +29,7 @@ struct Edit {
     hold: HoldState,
 }
 
-/// A change on its way to the unit.
+/// Change that the unit has not answered yet.
 pub(super) struct Sent {
     pub(super) ticket: u64,
     pub(super) instant: Instant,
@@ -39,9 +39,9 @@ pub(super) struct Sent {
 /// Result of the last change of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Outcome {
-    /// Read back and found right.
+    /// Value that Azel read back and found correct.
     Verified(Timestamp),
-    /// Accepted by the unit, which never reports the value.
+    /// Value that the unit accepted but never reports.
     Taken(Timestamp),
     Rejected,
 }
@@ -54,7 +54,7 @@ pub(super) enum Reading {
     Unfit(Unfit),
 }
 
-/// Content of a field without an edit.
+/// Returns the content of a field without an edit.
 fn default_text(field: &Field, current: Option<&Values>) -> String {
     if field.access == Access::Write {
         return field.kind.untouched();
@@ -64,7 +64,7 @@ fn default_text(field: &Field, current: Option<&Values>) -> String {
 }
 
 impl Draft {
-    /// Content of the field.
+    /// Returns the typed content of the field, or its content without an edit.
     pub(super) fn text(&self, field: &Field, current: Option<&Values>) -> String {
         let typed = self.edits.get(field.key).map(|edit| edit.text.clone());
         typed.unwrap_or_else(|| default_text(field, current))
@@ -110,20 +110,20 @@ impl Draft {
         self.edits.get(key).is_some_and(|edit| edit.is_confirmed)
     }
 
-    /// Button that confirms the edit of this field.
+    /// Returns the state of the hold button that confirms the edit of this field.
     pub(super) fn hold(&mut self, key: &str) -> Option<&mut HoldState> {
         self.edits.get_mut(key).map(|edit| &mut edit.hold)
     }
 
-    /// Confirms the content of the field.
+    /// Marks the edit of the field as confirmed by the operator.
     pub(super) fn confirm(&mut self, key: &str) {
         if let Some(edit) = self.edits.get_mut(key) {
             edit.is_confirmed = true;
         }
     }
 
-    /// Result of the last change of the field. A proof is void when the unit has another value
-    /// by now.
+    /// Returns the result of the last change of the field. A verified result is void once the unit
+    /// holds another value.
     pub(super) fn outcome(&self, field: &Field, current: Option<&Values>) -> Option<Outcome> {
         let outcome = self.outcomes.get(field.key).copied()?;
         let now = current.and_then(|current| current.get(field.key));
@@ -150,8 +150,8 @@ impl Draft {
         self.sent = Some(sent);
     }
 
-    /// Ends the change. Proved values are no longer edits; from here on the operator has seen
-    /// what the form shows.
+    /// Ends the change. Verified values stop being edits, and the unit's current values become the
+    /// expected ones.
     pub(super) fn end(&mut self, written: &Written, fields: &[Field], current: Option<&Values>) {
         let Some(sent) = self.sent.take() else { return };
         for (key, value) in &sent.values {
@@ -172,12 +172,12 @@ impl Draft {
         self.expected = current.cloned();
     }
 
-    /// Gives the change up when no result of it will come.
+    /// Abandons the change when no result will come.
     pub(super) fn give_up(&mut self) {
         self.sent = None;
     }
 
-    /// Drops the edits. A change on its way goes on.
+    /// Drops the edits. A change on its way to the unit continues.
     pub(super) fn revert(&mut self) {
         self.edits.clear();
         self.outcomes.retain(|_, outcome| *outcome != Outcome::Rejected);

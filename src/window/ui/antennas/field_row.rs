@@ -1,5 +1,4 @@
-//! Line of a setting, drawn from its description. Every setting of every group is shown
-//! this way.
+//! Line of a setting, drawn from its description. All settings of all groups have such a line.
 
 use egui::{Rect, Role, Sense, Ui, pos2, vec2};
 
@@ -22,8 +21,8 @@ use crate::{
     },
 };
 
-/// Shows the fields of `group` for which `is_wanted` is true. `is_revealed` shows a
-/// password while it is typed.
+/// Shows the fields of `group` that `is_wanted` accepts. `is_revealed` makes a typed password
+/// readable.
 pub(super) fn show_all(
     ui: &mut Ui,
     unit: &ShownUnit<'_>,
@@ -42,7 +41,7 @@ pub(super) fn show_all(
     });
 }
 
-/// Note why the values are not current.
+/// Shows a note with the reason why the values are not current.
 fn old_or_unread(ui: &mut Ui, unit: &ShownUnit<'_>, group: &Group) {
     let t = theme::tokens(ui);
     let reason = unit.failure(group.key).map(outcome::read_failure);
@@ -87,7 +86,7 @@ fn show(
     }
     let (icon, colour) = state.mark().look(t);
     let word = state.word(unit.model.now);
-    // Painted beside each field, it would hide the few that differ.
+    // Paint no word for an unchanged field: it would hide the few changed fields.
     let painted = if state == FieldState::Unchanged { "" } else { &word };
     row::state(ui, columns.state, icon, painted, colour, &format!("{}: {word}", field.label));
     below(ui, field, draft, &state);
@@ -102,7 +101,7 @@ fn paint_unit(ui: &Ui, columns: &Columns, field: &Field) {
     paint::text_in(ui, room, egui::Align2::LEFT_CENTER, field.unit, text::small(), t.t3);
 }
 
-/// Value on the unit, hollow if it is not current.
+/// Shows the value on the unit; an open ring marks a value that is not current.
 fn on_unit(ui: &Ui, unit: &ShownUnit<'_>, group: &Group, field: &Field, columns: &Columns) {
     let t = theme::tokens(ui);
     let value = unit.values(group.key).and_then(|current| current.get(field.key));
@@ -125,7 +124,7 @@ fn on_unit(ui: &Ui, unit: &ShownUnit<'_>, group: &Group, field: &Field, columns:
     }
     let old = if is_old && value.is_some() { ", old" } else { "" };
     let name = format!("{}, on the unit{old}: {full}", field.label);
-    // Without a field after it there is room for the unit of measure.
+    // A read-only line has no input field, which leaves room for the unit of measure.
     let short = if field.access == Access::Read && !field.unit.is_empty() && value.is_some() {
         format!("{short}{}{}", if field.unit == "°" { "" } else { " " }, field.unit)
     } else {
@@ -135,7 +134,7 @@ fn on_unit(ui: &Ui, unit: &ShownUnit<'_>, group: &Group, field: &Field, columns:
     row::status_text(ui, room, &short, text::small(), colour, &name);
 }
 
-/// Placeholder for a value that the unit never reports or has not reported.
+/// Returns the placeholder for a value that the unit never reports or has not reported.
 fn missing(unit: &ShownUnit<'_>, group: &Group, field: &Field) -> &'static str {
     let is_read = unit.read_at(group.key).is_some();
     if is_read || field.access == Access::Write { outcome::NOT_REPORTED } else { "not read" }
@@ -175,7 +174,7 @@ fn edit(
     }
 }
 
-/// Eye button that shows the text being typed; never a value from the unit.
+/// Shows the eye button, which reveals the typed text but never a value from the unit.
 fn reveal(ui: &Ui, rect: Rect, is_revealed: &mut bool) {
     let t = theme::tokens(ui);
     let name = if *is_revealed { "Hide the typed password" } else { "Show the typed password" };
@@ -188,7 +187,8 @@ fn reveal(ui: &Ui, rect: Rect, is_revealed: &mut bool) {
     paint::focus_ring(ui, &response, 4);
 }
 
-/// Painted only: a screen reader would speak a real text, and tools would record it.
+/// Paints the typed password without a label: a screen reader would speak it, and tools would
+/// record it.
 fn typed_password(ui: &mut Ui, typed: &str) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 18.0), Sense::hover());
     let area = Columns::new(rect).new.with_max_x(rect.right());
@@ -196,7 +196,7 @@ fn typed_password(ui: &mut Ui, typed: &str) {
     paint::text_in(ui, area, egui::Align2::LEFT_CENTER, typed, text::small(), colour);
 }
 
-/// Space below the line: problem of the value, or its confirmation.
+/// Shows the problem of the value, or its confirmation, below the line.
 fn below(ui: &mut Ui, field: &'static Field, draft: &mut Draft, state: &FieldState) {
     let t = theme::tokens(ui);
     match state {

@@ -14,30 +14,30 @@ use crate::{
 
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum FieldState {
-    /// The unit has not reported the value.
+    /// Value that the unit has not reported.
     Unknown,
     Unchanged,
     Edited,
-    /// The value must be confirmed separately.
+    /// Value that needs a separate confirmation.
     ConfirmFirst,
-    /// The value needs the service functions, which are locked.
+    /// Value that needs the service functions, which are locked.
     NeedsService,
     Sending,
     Verified(Timestamp),
-    /// Accepted by the unit, which never reports the value.
+    /// Value that the unit accepted but never reports.
     Taken(Timestamp),
     Rejected,
     Invalid(Unfit),
-    /// The value goes out with that of the field with this label, which cannot be sent.
+    /// Value in one change with the field of this label, which Azel cannot send.
     HeldBackBy(&'static str),
     ReadOnly,
-    /// A time that the unit told then, as of its clock.
+    /// Time value of the unit, with the moment at which Azel read it.
     Read(Timestamp),
     Locked,
 }
 
 impl FieldState {
-    /// State in a word or two.
+    /// Returns the state in one or two words.
     pub(super) fn word(&self, now: Timestamp) -> String {
         match self {
             Self::Unknown => "Not read".to_owned(),
@@ -93,7 +93,7 @@ impl FieldState {
     }
 }
 
-/// State of `field` in `group`, with the new value if it can be sent.
+/// Returns the state of `field` in `group`, with the new value if Azel can send it.
 pub(super) fn new(
     unit: &ShownUnit<'_>,
     group: &Group,
@@ -111,7 +111,7 @@ pub(super) fn new(
     }
 }
 
-/// State of `field` regardless of the fields that its value goes out with.
+/// Returns the state of `field`, regardless of the fields in the same change.
 fn alone(
     unit: &ShownUnit<'_>,
     group: &Group,
@@ -120,10 +120,10 @@ fn alone(
 ) -> (FieldState, Option<Value>) {
     let current = unit.values(group.key);
     let is_told = current.is_some_and(|current| current.contains_key(field.key));
-    // A value that is never reported is known as far as its group is.
+    // A value that the unit never reports counts as known once Azel has read its group.
     let is_known = is_told || (field.access == Access::Write && current.is_some());
     if field.access == Access::Read {
-        // A value missing from a group that was read is one that the unit does not report.
+        // The unit does not report a value that is missing after a reading of its group.
         let state = match (unit.read_at(group.key), &field.kind) {
             (None, _) => FieldState::Unknown,
             (Some(time), Kind::Time) => FieldState::Read(time),

@@ -21,9 +21,9 @@ use crate::{
 const MIN_HEIGHT: f32 = 64.0;
 const PADDING: f32 = 16.0;
 const LINE_GAP: f32 = 4.0;
-/// Share of the width for the report.
+/// Share of the width for the report, 0 to 1.
 const REPORT: f32 = 0.5;
-/// View width below which the report gets all the width that the buttons leave.
+/// View width below which the report gets all the width that the buttons leave, points.
 const NARROW: f32 = 900.0;
 const BUTTONS: f32 = 390.0;
 
@@ -42,7 +42,7 @@ enum Mark {
 }
 
 impl Lines {
-    /// Lays the sentences out; a narrow view includes the edits not sent yet.
+    /// Lays the sentences out. A narrow view adds the sentence about the edits not sent yet.
     fn new(ui: &Ui, unit: &ShownUnit<'_>, form: &Form, width: f32) -> Self {
         let t = theme::tokens(ui);
         let is_narrow = width < NARROW;
@@ -60,7 +60,7 @@ impl Lines {
     }
 }
 
-/// Height of the bar in a view of this width.
+/// Returns the height of the bar in a view of this width, points.
 pub(super) fn height(ui: &Ui, unit: &ShownUnit<'_>, form: &Form, width: f32) -> f32 {
     (Lines::new(ui, unit, form, width).height + 16.0).max(MIN_HEIGHT)
 }
@@ -108,7 +108,7 @@ pub(super) fn show(
     if revert.show(ui, "revert settings", reverting).clicked() {
         form.revert();
     }
-    // Enter in a dialog belongs to the dialog.
+    // An open dialog handles Enter itself.
     let is_free = ui.memory(|memory| memory.top_modal_layer().is_none());
     let key = is_free && ui.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Enter));
     let applied = apply.show(ui, "apply settings", applying);
@@ -143,7 +143,7 @@ fn report(ui: &Ui, rect: Rect, unit: &ShownUnit<'_>, form: &Form) {
     }
 }
 
-/// Edits not sent yet, with the reason.
+/// Returns a sentence about the edits not sent yet, with its colour.
 fn pending(ui: &Ui, unit: &ShownUnit<'_>, form: &Form) -> (String, Color32) {
     let t = theme::tokens(ui);
     let count = form.count_all(unit);

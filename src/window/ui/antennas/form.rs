@@ -1,4 +1,4 @@
-//! Forms of one unit: edits, changes on their way, and results.
+//! Forms of one unit: edits, pending changes and results.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -23,22 +23,22 @@ use crate::{
     ui::{copies::CopiedValues, format, source_test::SourceTestState},
 };
 
-/// Time within which the session shows a change that it was given.
+/// Max time until the session shows a change that it received.
 const HEARD: Duration = Duration::from_secs(3);
 
-/// Forms of one unit. Without `Debug`: a password may be among the edits.
+/// Form of one unit. The type has no `Debug`, because an edit may be a password.
 #[derive(Default)]
 pub(super) struct Form {
     drafts: BTreeMap<&'static str, Draft>,
-    /// Groups requested so far, and the link of the requests.
+    /// Groups requested so far, with the start of the link that the requests used.
     requested: (Option<Instant>, BTreeSet<&'static str>),
     pub(super) unlock: Option<Unlock>,
     pub(super) report: Report,
-    /// Source of elements on display; `None` for the one in use.
+    /// Source of elements on display; `None` for the source in use.
     pub(super) tab: Option<&'static str>,
     /// Time of the request for automatic tracking.
     pub(super) auto_asked: Option<Timestamp>,
-    /// Show the password that is being typed.
+    /// Flag: show the password while the operator types it.
     pub(super) is_revealed: bool,
     pub(super) source_test: SourceTestState,
 }
@@ -46,15 +46,15 @@ pub(super) struct Form {
 /// Results of the last Apply.
 #[derive(Default)]
 pub(super) struct Report {
-    /// Number of proved settings, and time of the last proof.
+    /// Number of verified settings, and time of the last verification.
     verified: Option<(usize, Timestamp)>,
-    /// Groups with values that the unit never reports, and the time of the answer.
+    /// Groups with values that the unit never reports, with the time of the unit's answer.
     copied: Vec<(&'static str, Timestamp)>,
     failures: Vec<String>,
 }
 
 impl Report {
-    /// All sentences, successes first; `true` for success.
+    /// Returns all sentences, successes first; `true` marks a success.
     pub(super) fn lines(&self, now: Timestamp) -> Vec<(bool, String)> {
         let verified = self.verified.iter().map(|(count, time)| {
             let plural = if *count == 1 { "" } else { "s" };
@@ -75,12 +75,12 @@ impl Report {
 pub(super) struct Count {
     /// Fields whose value is not on the unit.
     pub(super) edited: usize,
-    /// Edited fields that Apply would send.
+    /// Edited fields whose values Apply would send.
     pub(super) ready: usize,
     pub(super) to_confirm: usize,
     pub(super) locked: usize,
     pub(super) invalid: usize,
-    /// Fields that are not sent because another one cannot be.
+    /// Fields that wait because Azel cannot send another field of their change.
     pub(super) held_back: usize,
     pub(super) rejected: usize,
     pub(super) sending: usize,
@@ -91,7 +91,7 @@ impl Form {
         self.drafts.entry(group).or_default()
     }
 
-    /// Counts the fields of these groups.
+    /// Counts the fields of these groups by state.
     pub(super) fn count(&self, unit: &ShownUnit<'_>, groups: &[&str]) -> Count {
         let mut count = Count::default();
         for (key, draft) in self.drafts.iter().filter(|(key, _)| groups.contains(key)) {
@@ -112,13 +112,13 @@ impl Form {
         count
     }
 
-    /// Counts the fields of the whole unit.
+    /// Counts the fields of the whole unit by state.
     pub(super) fn count_all(&self, unit: &ShownUnit<'_>) -> Count {
         let groups: Vec<&str> = unit.antenna.groups().iter().map(|group| group.key).collect();
         self.count(unit, &groups)
     }
 
-    /// Reason why the ready values cannot be sent now: some of them decide where the antenna
+    /// Returns the reason why the ready values must wait, if one of them decides where the antenna
     /// points.
     pub(super) fn hindrance(&self, unit: &ShownUnit<'_>) -> Option<Hindrance> {
         let ready = |key: &str, draft: &Draft| {
@@ -130,7 +130,7 @@ impl Form {
         self.drafts.iter().any(|(key, draft)| ready(key, draft)).then_some(hindrance)
     }
 
-    /// Requests every group that has not been read on this link, each once. A replay asks nothing.
+    /// Requests every group not yet read on this link, once each. A replay requests nothing.
     pub(super) fn ask_unread(&mut self, unit: &ShownUnit<'_>, commands: &mut Vec<UiCommand>) {
         let link = unit.antenna.snapshot.state.link_since;
         if !unit.is_open() || link.is_none() || unit.model.replay.is_some() {
@@ -166,7 +166,7 @@ impl Form {
         }
     }
 
-    /// Takes over values of a copy as if they had been typed.
+    /// Takes over copied values as if the operator had typed them.
     pub(super) fn take_over(&mut self, unit: &ShownUnit<'_>, entries: Vec<CopiedValues>) {
         for CopiedValues { group: key, field: field_key, value } in entries {
             let group = unit.description(key);
@@ -180,7 +180,7 @@ impl Form {
         self.report = Report::default();
     }
 
-    /// Sends `values` to the unit.
+    /// Sends `values` to the unit as one change of `group`.
     pub(super) fn send(
         &mut self,
         unit: &ShownUnit<'_>,
@@ -199,7 +199,7 @@ impl Form {
         commands.push(UiCommand::antenna(unit.antenna.id(), Command::WriteSettings(change)));
     }
 
-    /// Takes the results of the changes that were sent.
+    /// Takes the results of the sent changes.
     pub(super) fn take_outcomes(&mut self, unit: &ShownUnit<'_>) {
         for (key, draft) in &mut self.drafts {
             let (Some(sent), Some(group)) = (draft.sent(), unit.description(key)) else { continue };
@@ -230,7 +230,7 @@ impl Form {
         }
     }
 
-    /// Drops the edits and their reports.
+    /// Drops all edits and the report.
     pub(super) fn revert(&mut self) {
         self.drafts.values_mut().for_each(Draft::revert);
         self.begin_report();

@@ -1,4 +1,4 @@
-//! Head of the view: the unit, how much of it is read, and actions on all of it.
+//! Head of the view: the unit, the progress of its reading, and actions on the whole unit.
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
@@ -19,7 +19,7 @@ use crate::{
 
 pub(super) const HEIGHT: f32 = 56.0;
 const PADDING: f32 = 16.0;
-/// Time for which the place of a saved copy is shown, seconds.
+/// Time for which the view shows the path of a saved copy, seconds.
 const SAVED_S: f64 = 30.0;
 
 pub(super) fn show(ui: &Ui, rect: Rect, unit: &ShownUnit<'_>, commands: &mut Vec<UiCommand>) {
@@ -71,7 +71,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, unit: &ShownUnit<'_>, commands: &mut Vec
     }
 }
 
-/// Result of the copy that was just saved.
+/// Returns the path of the copy that Azel just saved, or the error.
 fn saved(unit: &ShownUnit<'_>) -> Option<Result<String, String>> {
     let saving = unit.model.copies.saved.as_ref()?;
     let is_news = seconds_between(saving.time, unit.model.now) < SAVED_S;
@@ -85,7 +85,7 @@ fn is_read(unit: &ShownUnit<'_>) -> bool {
     unit.antenna.groups().iter().any(|group| unit.values(group.key).is_some())
 }
 
-/// How much of the unit is read; `None` for one without groups of settings.
+/// Describes how much of the unit Azel has read; `None` for a unit without groups of settings.
 fn read(unit: &ShownUnit<'_>) -> Option<String> {
     let groups = unit.antenna.groups();
     if groups.is_empty() {

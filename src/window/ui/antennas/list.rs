@@ -136,7 +136,7 @@ fn line(ui: &Ui, rect: Rect, words: &str, colour: Color32) -> bool {
     response.clicked()
 }
 
-/// A number in a box with its right end at `right`; returns the left end.
+/// Draws a number in a box with its right end at `right`; returns the left end.
 fn badge(
     ui: &Ui,
     right: egui::Pos2,
@@ -153,7 +153,7 @@ fn badge(
     rect.left()
 }
 
-/// Versions that the unit reports, at the foot if there is room.
+/// Shows the versions that the unit reports, at the foot if there is room.
 fn versions(ui: &Ui, rect: Rect, unit: &ShownUnit<'_>) {
     let t = theme::tokens(ui);
     let own = makes::own(unit.antenna.spec());

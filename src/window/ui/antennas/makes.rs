@@ -15,7 +15,7 @@ pub(super) struct Own {
 
 static MAKES: [Own; 1] = [satrak::OWN];
 
-/// Cards of this make; `None` if each group is a card.
+/// Returns the cards of this make; `None` if each group is a card.
 pub(super) fn own(spec: &ControllerSpec) -> Option<&'static Own> {
     MAKES.iter().find(|own| own.key == spec.key)
 }

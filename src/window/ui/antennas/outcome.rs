@@ -1,18 +1,17 @@
-//! Result of a change in a sentence: what did not happen, why, what is true now, what to
-//! do.
+//! Sentences on the result of a change: the failure, its reason, the current value, and the remedy.
 
 use crate::{
     device::settings::{Field, Group, Kind, ReadFailure, Value, Values, WriteError, Written},
     ui::{format, words},
 };
 
-/// Text in place of a value that must not be read.
+/// Placeholder for a value that must not be readable.
 pub(super) const HIDDEN: &str = "hidden";
 
-/// Text in place of a value that the unit never reports, or did not report.
+/// Placeholder for a value that the unit never reports, or did not report.
 pub(super) const NOT_REPORTED: &str = "not reported";
 
-/// A value beside its field, without its unit of measure.
+/// Formats a value without its unit of measure.
 pub(super) fn shown(field: &Field, value: &Value) -> String {
     match (field.kind, value) {
         (_, Value::Secret(_)) => HIDDEN.to_owned(),
@@ -27,7 +26,7 @@ pub(super) fn shown(field: &Field, value: &Value) -> String {
     }
 }
 
-/// A value with its unit of measure, if any.
+/// Formats a value with its unit of measure, if any.
 fn with_unit(field: &Field, value: Option<&Value>) -> String {
     let Some(value) = value else { return NOT_REPORTED.to_owned() };
     let value = shown(field, value);
@@ -38,7 +37,7 @@ fn with_unit(field: &Field, value: Option<&Value>) -> String {
     }
 }
 
-/// Reason why a group is unknown.
+/// Returns the reason why a group is unknown.
 pub(super) fn read_failure(failure: &ReadFailure) -> String {
     match failure {
         ReadFailure::Refused(answer) => format!("the unit answered {answer}"),
@@ -46,8 +45,8 @@ pub(super) fn read_failure(failure: &ReadFailure) -> String {
     }
 }
 
-/// Reason why `written` failed. `expected` are the values that the form showed before, `current`
-/// those of the unit now.
+/// Returns the reason why `written` failed. `expected` holds the values that the form showed
+/// before, `current` the unit's values now.
 pub(super) fn sentence(
     group: &Group,
     written: &Written,
@@ -114,7 +113,7 @@ pub(super) fn sentence(
     }
 }
 
-/// Values of the unit in `fields`.
+/// Formats the unit's values in `fields`.
 fn kept_values(fields: &[&Field], current: Option<&Values>) -> String {
     let value =
         |field: &Field| with_unit(field, current.and_then(|current| current.get(field.key)));
@@ -125,7 +124,7 @@ fn kept_values(fields: &[&Field], current: Option<&Values>) -> String {
     named.collect::<Vec<_>>().join(", ")
 }
 
-/// Fields in which the unit's values have changed since they were seen.
+/// Lists the fields whose values on the unit differ from the expected ones.
 fn changed(group: &Group, expected: Option<&Values>, current: Option<&Values>) -> String {
     let changes = group.fields.iter().filter_map(|field| {
         let (was, is) = (expected?.get(field.key), current?.get(field.key));

@@ -1,4 +1,4 @@
-//! Lines of a card, in fixed columns so that no text pushes its neighbours.
+//! Lines of a card, in fixed columns: no text pushes its neighbours.
 
 use egui::{Align2, Color32, FontId, Rect, Sense, Ui, pos2, vec2};
 
@@ -9,11 +9,11 @@ use crate::ui::{
 };
 
 pub(super) const HEIGHT: f32 = 28.0;
-/// Height of a field in a line.
+/// Height of a field in a line, points.
 const FIELD: f32 = 24.0;
-/// Gap between two columns.
+/// Gap between two columns, points.
 const GAP: f32 = 6.0;
-/// Width that the columns need.
+/// Min width of the columns together, points.
 pub(super) const MIN_WIDTH: f32 = 530.0;
 
 /// Columns of a line: setting, value on the unit, new value, unit of measure, state.
@@ -26,7 +26,7 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    /// Columns of a line in `rect`; the values share any width beyond the minimum.
+    /// Divides `rect` into the columns; the values share the width beyond the min.
     pub(super) fn new(rect: Rect) -> Self {
         let spare = (rect.width() - MIN_WIDTH).max(0.0);
         let widths = [127.0, 108.0 + spare * 0.5, 112.0 + spare * 0.3, 34.0, 125.0 + spare * 0.2];
@@ -41,18 +41,18 @@ impl Columns {
         Self { label, on_unit, new: new.shrink2(vec2(0.0, inset)), unit, state }
     }
 
-    /// Field and unit column together, for a long value without a unit of measure.
+    /// Joins the columns of the new value and its unit, for a long value without a unit of measure.
     pub(super) fn wide(&self) -> Rect {
         self.new.with_max_x(self.unit.right() - 2.0)
     }
 }
 
-/// Space for the next line of the card.
+/// Allocates the space of the next line of the card.
 pub(super) fn take(ui: &mut Ui) -> Rect {
     ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover()).0
 }
 
-/// Column headings.
+/// Draws the column headings.
 pub(super) fn head(ui: &mut Ui) {
     let t = theme::tokens(ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 20.0), Sense::hover());
@@ -67,8 +67,8 @@ pub(super) fn head(ui: &mut Ui) {
     }
 }
 
-/// A text in a column with the accessible name `name`, which is under the pointer if the text is cut or
-/// a short form.
+/// Draws a text in a column with the accessible name `name`. If the text is cut or abbreviated,
+/// `name` is also the tooltip.
 pub(super) fn status_text(
     ui: &Ui,
     rect: Rect,
@@ -84,7 +84,7 @@ pub(super) fn status_text(
     }
 }
 
-/// A state with its mark.
+/// Draws a state with its mark.
 pub(super) fn state(
     ui: &Ui,
     rect: Rect,
@@ -102,7 +102,7 @@ pub(super) fn state(
     status_text(ui, room, words, text::small(), colour, name);
 }
 
-/// A line without a field: subject, fact and conclusion.
+/// Draws a line without a field: subject, fact and conclusion.
 pub(super) fn plain(
     ui: &mut Ui,
     label: &str,
@@ -121,7 +121,7 @@ pub(super) fn plain(
     }
 }
 
-/// A sentence over the whole width, wrapped.
+/// Draws a sentence over the whole width, wrapped.
 pub(super) fn note(ui: &mut Ui, icon: Option<Icon>, words: &str, colour: Color32) {
     let indent = if icon.is_some() { 20.0 } else { 0.0 };
     let width = ui.available_width() - indent;

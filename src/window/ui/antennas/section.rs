@@ -10,18 +10,18 @@ use super::{
 };
 use crate::{device::settings::Group, station::Connection};
 
-/// Draws the content of a card.
+/// Function that draws the content of a card.
 pub(super) type Content = fn(&mut Ui, &ShownUnit<'_>, &mut Form, &Section, &mut CardEffects<'_>);
 
-/// A card of the view.
+/// Card of the view, with the settings that it shows.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Section {
     pub(super) title: &'static str,
-    /// Keys of its groups, which identify the section.
+    /// Keys of the section's groups, which identify the section.
     pub(super) keys: &'static [&'static str],
-    /// Opens only with the service functions.
+    /// Flag: the section opens only with the service functions.
     pub(super) is_service: bool,
-    /// Column when there are two; cards without one take turns.
+    /// Column if there are two; cards without one alternate.
     pub(super) column: Option<Column>,
     pub(super) content: Content,
 }
@@ -39,7 +39,7 @@ impl PartialEq for Section {
 }
 
 impl Section {
-    /// Sections of the unit at the other end of `connection`.
+    /// Returns the sections of the unit behind `connection`.
     pub(super) fn new(connection: &Connection) -> Vec<Self> {
         let plain = |group: &&'static Group| Self {
             title: group.title,

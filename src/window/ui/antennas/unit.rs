@@ -1,4 +1,4 @@
-//! A unit as this frame shows it.
+//! Unit as the current frame shows it.
 
 use jiff::Timestamp;
 
@@ -9,14 +9,14 @@ use crate::{
     model::Model,
 };
 
-/// A unit in this frame, with the rights of its form.
+/// Unit in the current frame, with the rights of its form.
 #[derive(Clone, Copy)]
 pub(super) struct ShownUnit<'a> {
     pub(super) model: &'a Model,
     /// Index among the antennas.
     pub(super) index: usize,
     pub(super) antenna: &'a AntennaModel,
-    /// The service functions are open.
+    /// Flag: the service functions are open.
     pub(super) is_unlocked: bool,
 }
 
@@ -30,7 +30,7 @@ impl<'a> ShownUnit<'a> {
         &self.antenna.config.name
     }
 
-    /// Description of one of the unit's groups.
+    /// Returns the description of one of the unit's groups.
     pub(super) fn description(&self, key: &str) -> Option<&'static Group> {
         self.antenna.groups().iter().copied().find(|group| group.key == key)
     }
@@ -39,7 +39,7 @@ impl<'a> ShownUnit<'a> {
         self.antenna.snapshot.state.groups.get(key)
     }
 
-    /// Values of the group at its last reading.
+    /// Returns the values of the group at its last reading.
     pub(super) fn values(&self, key: &str) -> Option<&'a Values> {
         self.group(key)?.last_read.as_ref().map(|group| &group.values)
     }
@@ -56,8 +56,8 @@ impl<'a> ShownUnit<'a> {
         self.antenna.snapshot.link.is_open()
     }
 
-    /// Returns `true` if the group was read on the present link. Older values are from another
-    /// time.
+    /// Returns `true` if Azel has read the group on the current link. Values from an earlier link
+    /// may be outdated.
     pub(super) fn is_fresh(&self, key: &str) -> bool {
         let Some(start) = self.antenna.snapshot.state.link_since.filter(|_| self.is_open()) else {
             return false;
@@ -66,8 +66,8 @@ impl<'a> ShownUnit<'a> {
         self.read_at(key).is_some_and(|time| time >= add_seconds(self.model.now, -up_s))
     }
 
-    /// Returns `true` if the unit's own program is on, or not known to be off. For a unit without
-    /// one: if Azel tracks with it.
+    /// Returns `true` if the unit's own program is on, or not known to be off. For a unit without a
+    /// program, returns `true` if Azel tracks with the unit.
     pub(super) fn tracks(&self) -> bool {
         let program = self.antenna.snapshot.state.program;
         if self.antenna.variant().capabilities.has_program {
@@ -77,13 +77,13 @@ impl<'a> ShownUnit<'a> {
         follows || program.is_some_and(|program| program.enabled)
     }
 
-    /// Reason why a setting that decides where the antenna points has to wait.
+    /// Returns the reason why a setting that decides where the antenna points has to wait.
     pub(super) fn hindrance(&self) -> Option<Hindrance> {
         let can = self.antenna.variant().capabilities;
         self.antenna.snapshot.hindrance(can, self.model.steady)
     }
 
-    /// Returns `true` if Azel knows that nothing turns or is about to turn.
+    /// Returns `true` if Azel knows that the antenna neither turns nor is about to turn.
     pub(super) fn stands(&self) -> bool {
         let moving = |measured: crate::device::Measured| measured.moving();
         let measured = self.antenna.snapshot.state.measured;

@@ -1,4 +1,4 @@
-//! Service functions: opened with the name of the station, for ten minutes, while the
+//! Service functions, which the operator opens with the station's name for ten minutes while the
 //! antenna stands.
 
 use crate::clock::Instant;
@@ -6,14 +6,14 @@ use std::time::Duration;
 
 use super::unit::ShownUnit;
 
-/// Time for which they stay open.
+/// Time for which the service functions stay open.
 const OPEN: Duration = Duration::from_mins(10);
 
 /// The open service functions of one unit.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Unlock {
     instant: Instant,
-    /// Link on which they were opened.
+    /// Start of the link on which the operator opened the service functions.
     link_since: Option<Instant>,
 }
 
@@ -23,8 +23,8 @@ impl Unlock {
         Self { instant: unit.model.steady, link_since }
     }
 
-    /// Returns `true` if they stay open: within the time, on the same link, while nothing moves and
-    /// the operator looks at this antenna.
+    /// Returns `true` if the service functions stay open: within the time, on the same link, while
+    /// nothing moves and the operator looks at this antenna.
     pub(super) fn holds(&self, unit: &ShownUnit<'_>) -> bool {
         self.left(unit) > Duration::ZERO
             && unit.stands()
@@ -32,13 +32,13 @@ impl Unlock {
             && unit.model.selected_antenna == unit.index
     }
 
-    /// Time until they lock by themselves.
+    /// Returns the time until the service functions lock automatically.
     pub(super) fn left(&self, unit: &ShownUnit<'_>) -> Duration {
         OPEN.saturating_sub(unit.model.steady.saturating_duration_since(self.instant))
     }
 }
 
-/// Reason why they cannot be opened now.
+/// Returns the reason why the operator cannot open the service functions now.
 pub(super) fn refusal(unit: &ShownUnit<'_>) -> Option<&'static str> {
     if !unit.is_open() {
         Some("There is no link to the unit.")

@@ -15,7 +15,7 @@ use crate::ui::{
 const WIDTH: f32 = 360.0;
 const HOLD: &str = "Hold 1 s to unlock";
 
-/// Text typed into the dialog.
+/// State of the dialog, with the typed text.
 #[derive(Default)]
 pub(super) struct UnlockDialog {
     typed: String,
@@ -23,7 +23,6 @@ pub(super) struct UnlockDialog {
     hold: HoldState,
 }
 
-/// Outcome of the dialog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum UnlockAnswer {
     Open,
@@ -32,7 +31,7 @@ pub(super) enum UnlockAnswer {
 }
 
 impl UnlockDialog {
-    /// Shows the dialog in the middle of the window. Esc closes it and is STOP.
+    /// Shows the dialog in the middle of the window. Esc closes the dialog and sends STOP.
     pub(super) fn show(&mut self, ui: &Ui, unit: &ShownUnit<'_>) -> UnlockAnswer {
         let shown = modal(ui, "unlock").show(ui.ctx(), |ui| self.fill(ui, unit));
         if shown.should_close() && shown.inner == UnlockAnswer::Open {

@@ -20,19 +20,19 @@ use crate::{
     },
 };
 
-/// Height of the bar above the log.
+/// Height of the bar above the log, points.
 pub(super) const HEIGHT: f32 = 56.0;
-/// Height of the line below the log.
+/// Height of the line below the log, points.
 pub(super) const STRIP: f32 = 28.0;
 const GAP: f32 = 8.0;
 const TITLE: f32 = 88.0;
 const ANTENNA: f32 = 128.0;
 const DIRECTION: f32 = 104.0;
 const POLLS: f32 = 104.0;
-/// The choice without a particular antenna.
+/// Menu entry that shows the lines of all antennas.
 const ALL: &str = "All antennas";
 
-/// Draws the controls. `has_drawer`: a button opens the inspector.
+/// Draws the controls. With `has_drawer`, a button opens the inspector.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -102,14 +102,14 @@ fn direction(ui: &mut Ui, state: &mut ConsoleState) {
     });
 }
 
-/// One of each for the buttons at the right end, from the left.
+/// One value for each button at the right end, from the left.
 #[derive(Clone, Copy)]
 struct AllSources<T> {
     pause: T,
     newest: T,
     copy: T,
     save: T,
-    /// Where the inspector is a drawer.
+    /// Value of the button that opens the drawer; `None` without a drawer.
     details: Option<T>,
 }
 
@@ -173,7 +173,7 @@ fn show_buttons(
     }
 }
 
-/// Shows the number of lines and the outcome of the last saving.
+/// Shows the number of lines and the outcome of the last save.
 pub(super) fn show_strip(ui: &Ui, rect: Rect, state: &ConsoleState) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);

@@ -1,17 +1,19 @@
-//! Text in the line for questions, and the questions sent before.
+//! Text in the question line, and the questions sent before.
 
 use std::collections::VecDeque;
 
-/// Number of questions that are kept.
+/// Max number of kept questions.
 const MAX_KEPT: usize = 50;
 
-/// Text of the field. Earlier questions take its place, and what was typed comes back.
+/// Text of the question field. A recalled question replaces the typed text, which comes back after
+/// it.
 #[derive(Debug, Default)]
 pub(super) struct Entry {
     pub(super) text: String,
-    /// Oldest first.
+    /// Sent questions, oldest first.
     sent: VecDeque<String>,
-    /// The earlier question that is shown, by its place from the newest, and what was typed.
+    /// Position of the recalled question, counted from the newest, and the text typed before the
+    /// recall.
     shown: Option<(usize, String)>,
 }
 
@@ -27,7 +29,7 @@ impl Entry {
         }
     }
 
-    /// Shows the question before.
+    /// Shows the previous question.
     pub(super) fn older(&mut self) {
         let place = self.shown.as_ref().map_or(0, |(place, _)| place + 1);
         let Some(question) = self.sent.iter().rev().nth(place) else { return };
@@ -36,7 +38,7 @@ impl Entry {
         self.shown = Some((place, typed));
     }
 
-    /// Shows the question after, or again what was typed.
+    /// Shows the next question, or the typed text after the newest question.
     pub(super) fn newer(&mut self) {
         let Some((place, typed)) = self.shown.take() else { return };
         let Some(place) = place.checked_sub(1) else {

@@ -20,10 +20,10 @@ use crate::{
 
 const ROW: f32 = 22.0;
 const NUMBER: f32 = 24.0;
-/// Bytes in a line of the dump.
+/// Bytes per line of the dump.
 const BYTES: usize = 8;
 
-/// Draws the panel, in a drawer with a close button.
+/// Draws the panel; a drawer gets a close button.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -84,7 +84,7 @@ fn details(ui: &mut Ui, line: &ConsoleLine, explained: Option<&Explained>, now: 
     });
 }
 
-/// The line as parsed by the make of its antenna.
+/// Explains the line with the rules of its antenna's make.
 fn explained(model: &Model, line: &ConsoleLine) -> Option<Explained> {
     let antenna = model.antennas.iter().find(|antenna| *antenna.config.name == *line.antenna);
     let explain = antenna.and_then(|antenna| antenna.spec().explain);

@@ -6,12 +6,12 @@ use super::{PADDING, tally::Tally};
 use crate::ui::{format, text, theme, widgets::paint};
 
 const ROW: f32 = 22.0;
-/// Maximum number of antennas in the table.
+/// Max number of antennas in the table.
 const MAX: usize = 6;
-/// Width of a column with a number.
+/// Width of a column with a number, points.
 const NUMBER: f32 = 58.0;
 
-/// The height of the table for a number of antennas.
+/// Returns the height of the table for this number of antennas, points.
 pub(super) fn height(antennas: usize) -> f32 {
     (antennas.min(MAX) + 1) as f32 * ROW + 2.0 * PADDING
 }

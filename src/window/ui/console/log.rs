@@ -8,16 +8,16 @@ use crate::{
     model::ConsoleLine,
 };
 
-/// The filter of the log.
+/// Choice of the lines that the log shows.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Filter {
-    /// Only this antenna.
+    /// Antenna whose lines are shown; `None` shows all antennas.
     pub(super) antenna: Option<String>,
-    /// Only lines that went this way.
+    /// Direction of the shown lines; `None` shows both.
     pub(super) direction: Option<Direction>,
-    /// Only lines with this text.
+    /// Text that every shown line contains.
     pub(super) needle: String,
-    /// Hides routine polls.
+    /// Flag: hide routine polls.
     pub(super) hides_polls: bool,
 }
 
@@ -28,8 +28,8 @@ impl Default for Filter {
 }
 
 impl Filter {
-    /// Decides whether a line of `antenna` is shown, left out, or left out only as a poll;
-    /// `has_text` says whether the text is in it.
+    /// Decides whether the filter shows a line of `antenna`, leaves it out, or leaves it out only
+    /// as a poll. `has_text` returns `true` if the line contains the text.
     fn judge(
         &self,
         antenna: &str,
@@ -54,11 +54,12 @@ enum LineVerdict {
     Other,
 }
 
-/// The lines of an antenna that the filter shows.
+/// Returns a test for the lines of an antenna that the filter shows.
 fn is_shown(filter: &Filter, needle: &str, antenna: &Arc<str>) -> IsAwaited {
     let (filter, needle, antenna) = (filter.clone(), needle.to_owned(), Arc::clone(antenna));
     Arc::new(move |recorded| {
-        // The antenna's session waits for this.
+        // Build the line only if there is a text to find: the antenna's session waits for this
+        // test.
         let has_text = || {
             let line = || ConsoleLine::new(0, Arc::clone(&antenna), Arc::clone(recorded));
             needle.is_empty() || line().has(&needle)
@@ -92,8 +93,8 @@ struct Source {
 }
 
 impl Log {
-    /// Takes new lines from the logs of the antennas with these names. Returns `true` if there
-    /// may be more.
+    /// Takes new lines from the logs of the named antennas. Returns `true` if more lines may
+    /// follow.
     pub(super) fn pull<'a>(&mut self, logs: impl Iterator<Item = (&'a str, &'a WireLog)>) -> bool {
         self.take_up(logs);
         let needle = self.filter.needle.to_lowercase();
@@ -112,8 +113,8 @@ impl Log {
         self.waiting() > 0
     }
 
-    /// Takes the earliest of the lines that were read. `None` if nothing is left to take, or if an
-    /// antenna has only unread lines left: these may be earlier, so the others wait for them.
+    /// Takes the earliest line that was read. Returns `None` if no line is left, or if an antenna
+    /// has only unread lines, which may be earlier.
     fn next_line(
         &mut self,
         read: &mut [VecDeque<Arc<Recorded>>],
@@ -138,7 +139,7 @@ impl Log {
         Some((Arc::clone(&source.antenna), recorded))
     }
 
-    /// Follows the present antennas; lines of former ones stay.
+    /// Follows the current antennas; lines of former antennas stay.
     fn take_up<'a>(&mut self, logs: impl Iterator<Item = (&'a str, &'a WireLog)>) {
         let mut before = std::mem::take(&mut self.sources);
         for (antenna, log) in logs {
@@ -170,7 +171,7 @@ impl Log {
         }
     }
 
-    /// Number of lines received since the last [`Self::pull`].
+    /// Returns the number of lines received since the last [`Self::pull`].
     pub(super) fn waiting(&self) -> u64 {
         let ahead = |source: &Source| source.log.next_number().saturating_sub(source.next);
         self.sources.iter().map(ahead).sum()
@@ -191,33 +192,33 @@ impl Log {
         self.lines = lines;
     }
 
-    /// Positions of the shown lines.
+    /// Returns the positions of the shown lines.
     pub(super) fn shown(&self) -> &VecDeque<u64> {
         &self.shown
     }
 
-    /// Number of hidden polls.
+    /// Returns the number of hidden polls.
     pub(super) fn hidden_polls(&self) -> usize {
         self.polls.len()
     }
 
-    /// Number of shown lines dropped from the front since the last call.
+    /// Returns the number of shown lines dropped from the front since the last call.
     pub(super) fn take_gone(&mut self) -> u64 {
         std::mem::take(&mut self.dropped)
     }
 
-    /// The line at a position, while it is kept.
+    /// Returns the line at a position while the log keeps it.
     pub(super) fn line(&self, position: u64) -> Option<&Arc<ConsoleLine>> {
         let index = usize::try_from(position.checked_sub(self.first)?).ok()?;
         self.lines.get(index)
     }
 
-    /// Names of the followed antennas.
+    /// Returns the names of the followed antennas.
     pub(super) fn antennas(&self) -> impl Iterator<Item = &Arc<str>> {
         self.sources.iter().map(|source| &source.antenna)
     }
 
-    /// All lines, shown or not, newest first.
+    /// Returns all lines, shown or not, newest first.
     pub(super) fn newest_first(&self) -> impl Iterator<Item = &Arc<ConsoleLine>> {
         self.lines.iter().rev()
     }

@@ -8,7 +8,7 @@ use egui::{
 use crate::model::{Piece, pieces};
 use crate::ui::{text, theme};
 
-/// Font size for the names of unprintable bytes.
+/// Font size for the names of unprintable bytes, points.
 const CODE_POINTS: f32 = 10.0;
 
 /// Shows one line of bytes in `rect`, cut with an ellipsis at its width.
@@ -20,7 +20,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, bytes: &[u8], colour: Color32) {
     ui.painter().galley(position, galley, colour);
 }
 
-/// The text layout, with unprintable bytes as small tags.
+/// Lays out the text, with unprintable bytes as small tags.
 fn job(ui: &Ui, bytes: &[u8], colour: Color32) -> LayoutJob {
     let t = theme::tokens(ui);
     let mut job = LayoutJob::default();

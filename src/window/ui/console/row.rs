@@ -21,10 +21,9 @@ const ANTENNA: f32 = 92.0;
 const ARROW: f32 = 24.0;
 const ROUND_TRIP: f32 = 64.0;
 const GAP: f32 = 8.0;
-/// The bytes' part of the remaining width; the meaning has the rest.
+/// Share of the bytes in the remaining width, 0 to 1; the meaning has the rest.
 const RAW_PART: f32 = 0.56;
 
-/// The columns of a row.
 struct Columns {
     time: Rect,
     antenna: Option<Rect>,
@@ -73,7 +72,7 @@ pub(super) fn head(ui: &Ui, rect: Rect, names_antenna: bool) {
     word(columns.round_trip, Align2::RIGHT_CENTER, "Reply after");
 }
 
-/// Ground of a line by its meaning.
+/// Returns the background of a line by its meaning.
 pub(super) fn tint(ui: &Ui, line: &ConsoleLine) -> Color32 {
     let t = theme::tokens(ui);
     match line.meaning.tone {
@@ -130,7 +129,7 @@ fn mark_of(tone: Tone, t: &Tokens) -> Option<(Icon, Color32)> {
     }
 }
 
-/// The row for screen readers.
+/// Returns the row as text for screen readers.
 pub(super) fn spoken(line: &ConsoleLine, now: Timestamp) -> String {
     let time = format::millisecond(line.wire().time, now);
     let raw = line.raw.trim_end_matches("<CR><LF>");

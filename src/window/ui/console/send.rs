@@ -1,5 +1,5 @@
-//! The line for sending questions: it shows the finished frame before anything is sent,
-//! and sends nothing but questions.
+//! Line for sending questions. It shows the finished frame before it sends anything, and sends only
+//! questions.
 
 use egui::{
     Align, Align2, Color32, Key, Layout, Modifiers, Rect, RichText, Role, Sense, TextEdit, Ui,
@@ -23,9 +23,9 @@ use crate::{
     },
 };
 
-/// Height of the line with the note below it.
+/// Height of the line with the note below it, points.
 pub(super) const HEIGHT: f32 = 88.0;
-/// Where the rest is done.
+/// Hint where the operator changes settings and moves antennas.
 const ELSEWHERE: &str = "Change settings in Antennas; move antennas in Operate.";
 const GAP: f32 = 8.0;
 const ANTENNA: f32 = 112.0;
@@ -92,8 +92,8 @@ pub(super) fn show(
     }
 }
 
-/// Parses the typed question, case-insensitive and with or without the question sign; an
-/// error says why the input is no question. `None` without input.
+/// Parses the typed question, in any case and with or without the question sign. An error gives the
+/// reason why the input is no question. Returns `None` without input.
 fn read<'a>(antenna: &'a AntennaModel, typed: &str) -> Option<Result<&'a Question, String>> {
     let text = typed.trim().to_uppercase();
     if text.is_empty() {
@@ -107,7 +107,7 @@ fn read<'a>(antenna: &'a AntennaModel, typed: &str) -> Option<Result<&'a Questio
     }))
 }
 
-/// The text without the question sign.
+/// Returns the text without the question sign.
 fn bare(text: &str) -> &str {
     text.strip_suffix('?').unwrap_or(text).trim_end()
 }
@@ -121,7 +121,7 @@ fn say(ui: &Ui, below: Rect, icon: Icon, words: &str, colour: Color32) {
     paint::name_text(ui, "send line", room, words);
 }
 
-/// Shows the antenna to ask: the one selected in the window.
+/// Shows the selected antenna, which receives the question.
 fn antenna(ui: &Ui, rect: Rect, model: &Model) {
     let t = theme::tokens(ui);
     let Some(antenna) = model.antenna() else {
@@ -139,8 +139,8 @@ fn antenna(ui: &Ui, rect: Rect, model: &Model) {
     paint::name_text(ui, "asked antenna", rect, &words).on_hover_text(words);
 }
 
-/// Shows the list of questions and the field, where Up and Down bring back earlier questions.
-/// Returns `true` when Enter was pressed in it.
+/// Shows the list of questions and the field, where Up and Down recall earlier questions. Returns
+/// `true` when the operator presses Enter in the field.
 fn fields(ui: &mut Ui, rect: Rect, questions: &[Question], entry: &mut Entry) -> bool {
     let t = theme::tokens(ui);
     let layout = Layout::left_to_right(Align::Center);
@@ -171,7 +171,7 @@ fn fields(ui: &mut Ui, rect: Rect, questions: &[Question], entry: &mut Entry) ->
             }
             is_entered = pressed(Key::Enter);
         }
-        // Enter leaves the focus here, for the next question.
+        // Enter keeps the focus in the field, for the next question.
         let edit = TextEdit::singleline(&mut entry.text).id(id).return_key(None);
         let edit = edit.font(text::raw()).hint_text(hint);
         let edit = ui.add(edit.desired_width(ui.available_width() - GAP));
@@ -181,7 +181,7 @@ fn fields(ui: &mut Ui, rect: Rect, questions: &[Question], entry: &mut Entry) ->
     shown.inner
 }
 
-/// Shows the frame as it will be sent.
+/// Shows the frame that the button sends.
 fn finished(ui: &Ui, rect: Rect, question: &Question) {
     let t = theme::tokens(ui);
     let word = paint::text_in(ui, rect, Align2::LEFT_CENTER, "sends", text::small(), t.t3);

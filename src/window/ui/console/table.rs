@@ -1,4 +1,4 @@
-//! The log as a table: only the rows in view are drawn.
+//! Log as a table that draws only the rows in view.
 
 use egui::{Event, Key, Modifiers, Rect, Ui};
 use jiff::Timestamp;
@@ -26,7 +26,7 @@ impl Default for TableState {
 }
 
 impl TableState {
-    /// The table follows the newest line.
+    /// Returns `true` while the table follows the newest line.
     pub(super) fn follows(&self) -> bool {
         self.follows
     }
@@ -99,7 +99,7 @@ fn show_row(
 
 /// Handles the keys of the list while it has the focus.
 fn keys(ui: &Ui, list: &List, state: &mut ConsoleState) {
-    // Copies the selected lines unless a text has a selection of its own.
+    // Copy the selected lines, unless a text field has the focus and copies its own text.
     let copies = |event: &Event| matches!(event, Event::Copy);
     if !ui.text_edit_focused() && ui.input(|input| input.events.iter().any(copies)) {
         state.copy(ui);

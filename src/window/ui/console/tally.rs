@@ -10,18 +10,18 @@ use crate::{
     model::ConsoleLine,
 };
 
-/// Span of the statistics.
+/// Time span of the statistics.
 const SPAN: SignedDuration = SignedDuration::from_mins(10);
 
 /// Statistics of the link of one antenna.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Tally {
     pub(super) antenna: Arc<str>,
-    /// Lines of both directions.
+    /// Number of lines in both directions.
     pub(super) lines: usize,
-    /// Lines that were damaged or unreadable, or refused something.
+    /// Number of damaged or unreadable lines, and of lines that refuse a request.
     pub(super) bad: usize,
-    /// Replies that did not come in time.
+    /// Number of replies that did not come in time.
     pub(super) missing: usize,
     /// Median round trip.
     pub(super) median: Option<Duration>,
@@ -35,7 +35,7 @@ pub(super) struct Tallies {
 }
 
 impl Tallies {
-    /// Counts up to `now`.
+    /// Recomputes the tallies up to `now`, at most once for each second.
     pub(super) fn refresh(&mut self, now: Timestamp, log: &Log) {
         let second = Some(now.as_second());
         if self.second != second {
@@ -44,7 +44,7 @@ impl Tallies {
         }
     }
 
-    /// The tally of each antenna, in their order.
+    /// Returns the tally of each antenna, in the order of the antennas.
     pub(super) fn all(&self) -> &[Tally] {
         &self.all
     }

@@ -24,7 +24,7 @@ pub fn show(ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
     }
 }
 
-/// While the station changes, the operator can only press STOP.
+/// Shows the change to another station, during which the operator can only press STOP.
 fn under_way(ui: &Ui, model: &Model) {
     modal(ui, "changing").show(ui.ctx(), |ui| {
         ui.set_width(WIDTH);

@@ -1,4 +1,4 @@
-//! The question what happens to moving antennas when the window closes.
+//! Dialog that asks what happens to moving antennas when the window closes.
 
 use egui::{Button, RichText, Ui, vec2};
 
@@ -21,14 +21,14 @@ use crate::{
 
 const WIDTH: f32 = 440.0;
 
-/// The question, with other losses.
+/// Content of the question, besides the antennas.
 #[derive(Debug, Clone, Default)]
 pub struct ClosingDialog {
     /// Other losses, as sentences.
     pub lost: Vec<String>,
 }
 
-/// Sentences about ongoing activities of the antennas.
+/// Returns sentences about the ongoing activities of the antennas.
 pub fn stakes(model: &Model) -> Vec<String> {
     let announcement = |antenna: &AntennaModel| {
         antenna.stake().map(|stake| words::stake(&antenna.config.name, &stake))
@@ -37,7 +37,7 @@ pub fn stakes(model: &Model) -> Vec<String> {
 }
 
 impl ClosingDialog {
-    /// Shows the question until it is answered. Esc or a click outside keeps the window open.
+    /// Shows the question until the operator answers. Esc or a click outside keeps the window open.
     pub fn show(dialog: &mut Option<Self>, ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
         let Some(open) = dialog else { return };
         let modal = modal(ui, "closing").show(ui.ctx(), |ui| {
@@ -81,7 +81,7 @@ fn title(model: &Model) -> String {
         .map_or("Close Azel?".to_owned(), |next| format!("Change to {next}?"))
 }
 
-/// The offered answers, and the effect of each.
+/// Returns the offered answers with the effect of each.
 fn answers(model: &Model) -> Vec<(&'static str, String, CloseHow)> {
     let staked = || model.antennas.iter().filter_map(|antenna| Some((antenna, antenna.stake()?)));
     let names = |listed: Vec<&str>| format::list(&listed);
@@ -124,7 +124,7 @@ fn answer_key(ui: &mut Ui, word: &str, description: &str) -> bool {
     .inner
 }
 
-/// Shows what the closing of the window waits for.
+/// Shows the conditions that the window waits for before it closes.
 pub fn waiting(ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
     let Some(closing) = &model.closing else { return };
     let names = |condition: CloseCondition| -> Vec<&str> {

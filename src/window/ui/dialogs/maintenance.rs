@@ -64,7 +64,7 @@ impl MaintenanceDialog {
             (MaintenanceAnswer::Held, Some(_)) => commands.push(for_antenna(Command::Unlock)),
             (MaintenanceAnswer::Held, None) => {
                 let command = for_antenna(Command::LockOut(open.typed(model)));
-                // A running activity is named once more before the lock-out ends it.
+                // Name a running activity once more before the lock-out ends it.
                 match what_ends(antenna) {
                     None => commands.push(command),
                     Some(what_ends) => {
@@ -156,7 +156,7 @@ impl MaintenanceDialog {
     }
 }
 
-/// The activity that a lock-out ends; `None` if there is none.
+/// Returns the activity that a lock-out ends; `None` if there is none.
 fn what_ends(antenna: &AntennaModel) -> Option<String> {
     let name = &antenna.config.name;
     let program = antenna.snapshot.state.program;

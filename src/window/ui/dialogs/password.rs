@@ -30,15 +30,15 @@ pub enum SecretAnswer {
     /// A typed secret.
     Typed {
         secret: Secret,
-        /// Keep it in the keyring of the operating system.
+        /// Flag: keep the secret in the keyring of the operating system.
         keep: bool,
     },
-    /// Cancelled, such as with Esc.
+    /// Cancel, by its button or Esc.
     Cancelled,
 }
 
 impl PasswordDialog {
-    /// Shows the question until it is answered. Enter submits the input.
+    /// Shows the question until the operator answers. Enter submits the input.
     pub fn show(&mut self, ui: &Ui, request: &SecretWanted) -> Option<SecretAnswer> {
         let mut answer = None;
         let modal = modal(ui, "password").show(ui.ctx(), |ui| {
@@ -97,7 +97,7 @@ impl PasswordDialog {
         .inner
     }
 
-    /// Wipes the input.
+    /// Wipes the typed password and resets the dialog.
     pub fn clear(&mut self) {
         // `Secret` wipes the text when it is dropped.
         drop(Secret::take(&mut self.typed));

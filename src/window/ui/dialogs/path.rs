@@ -1,4 +1,4 @@
-//! The dialog for the path of a file, where the desktop shows none.
+//! Dialog for the path of a file, for desktops that show no file dialog.
 
 use std::path::PathBuf;
 
@@ -41,8 +41,8 @@ impl PathDialog {
         Self { request, typed, is_shown: false }
     }
 
-    /// Shows the dialog, if it is open, until it is answered. Enter saves or opens unless Cancel has the
-    /// focus, Esc cancels.
+    /// Shows the dialog, if it is open, until the operator answers. Enter saves or opens unless
+    /// Cancel has the focus; Esc cancels.
     pub fn show(dialog: &mut Option<Self>, ui: &Ui, commands: &mut Vec<UiCommand>) {
         let Some(open) = dialog else { return };
         let shown = modal(ui, "path of a file").show(ui.ctx(), |ui| {
@@ -84,7 +84,7 @@ impl PathDialog {
         let path = PathBuf::from(self.typed.trim());
         let (yes, command) = match &self.request.purpose {
             PathPurpose::Save { export, replaces } => {
-                // Another path replaces nothing before it was looked at.
+                // A new path replaces no file until Azel has checked the path.
                 let replaces = *replaces && path == self.request.path;
                 let yes = if replaces { "Replace it (Enter)" } else { "Save (Enter)" };
                 (yes, UiCommand::SaveAs(export.clone(), TypedPath { path, replaces }))

@@ -23,7 +23,7 @@ use crate::{
 };
 
 const LABEL: f32 = 72.0;
-/// Width beside a label that its field leaves free.
+/// Width that a field leaves free beside its label, points.
 const MARGIN: f32 = 24.0;
 const NAME: f32 = 240.0;
 const KINDS: f32 = 320.0;
@@ -36,7 +36,7 @@ pub(in crate::ui) struct AddState {
     kind: Kind,
     name: String,
     place: String,
-    /// The source requested last.
+    /// Source that the form requested last.
     requested: Option<Source>,
 }
 
@@ -76,7 +76,7 @@ impl AddState {
         Source { name, place, refresh: None }
     }
 
-    /// The name of a source without a typed one: that of its file, folder or server.
+    /// Returns the name of a source without a typed one: the name of its file, folder or server.
     fn suggested_name(&self) -> String {
         let place = self.place.trim();
         let path = Path::new(place);
@@ -90,21 +90,21 @@ impl AddState {
         name.unwrap_or_default().to_owned()
     }
 
-    /// Returns `true` if nothing is typed.
+    /// Returns `true` if the operator has typed nothing.
     pub(in crate::ui) fn is_empty(&self) -> bool {
         self.name.trim().is_empty() && self.place.trim().is_empty()
     }
 
-    /// Returns `true` if something is typed that was not requested.
+    /// Returns `true` if the operator has typed a source that the form has not requested.
     pub(in crate::ui) fn is_edited(&self) -> bool {
         !self.is_empty() && self.requested.as_ref() != Some(&self.source())
     }
 
-    /// The typed source that is not requested yet, or why it cannot be added. `None` for an empty
-    /// form.
+    /// Returns the typed source that is not requested yet, or the reason why it cannot be added.
+    /// Returns `None` for an empty form.
     pub(in crate::ui) fn typed(&self, sources: &Sources) -> Option<Result<Source, String>> {
         let source = self.source();
-        // It stays in the form until it is in the list.
+        // A requested source stays in the form until the list holds it.
         let is_requested = self.requested.as_ref() == Some(&source) && sources.problems.is_empty();
         if self.is_empty() || is_requested {
             return None;
@@ -118,7 +118,7 @@ impl AddState {
         Some(Err(reason))
     }
 
-    /// Requests `source`, which was typed.
+    /// Requests the typed `source`.
     pub(in crate::ui) fn add(&mut self, source: Source, commands: &mut Vec<UiCommand>) {
         self.requested = Some(source.clone());
         commands.push(UiCommand::Station(contract::Command::AddSource(source)));
@@ -197,7 +197,7 @@ pub(in crate::ui) fn show(
     });
 }
 
-/// The choice of the kind of source.
+/// Shows the choice of the kind of source.
 fn kinds(ui: &mut Ui, state: &mut AddState) {
     let kinds = [Kind::Web, Kind::File, Kind::Folder, Kind::SpaceTrack];
     let (place, _) = ui.allocate_exact_size(vec2(KINDS, ROW), Sense::hover());
@@ -237,7 +237,7 @@ fn suggestion(
     }
 }
 
-/// Shows a button with a longer accessible name; returns `true` when it was clicked.
+/// Shows a button with a longer accessible name; returns `true` after a click.
 fn named_button(ui: &mut Ui, enabled: bool, word: &str, name: &str) -> bool {
     let response = ui.add_enabled(enabled, Button::new(word));
     response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, name));

@@ -26,12 +26,12 @@ pub(super) const LOW_HEIGHT: f32 = 44.0;
 const GAP: f32 = 8.0;
 const SEARCH: f32 = 280.0;
 const MIN_SEARCH: f32 = 160.0;
-/// Room for the title, without and with the sentence below it.
+/// Room for the title without and with the sentence below it, points.
 const TITLE: [f32; 2] = [92.0, 300.0];
-/// Width of the form for a new source.
+/// Width of the form for a new source, points.
 const FORM: f32 = 560.0;
 
-/// Draws the controls. `has_drawer`: a button opens the inspector.
+/// Draws the controls. With `has_drawer`, a button opens the inspector.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -117,7 +117,7 @@ fn title(ui: &Ui, rect: Rect, model: &Model, has_sentence: bool) {
     }
 }
 
-/// All elements in a sentence, or what is done with them.
+/// Describes all elements in a sentence, or the work in progress on them.
 fn summary(model: &Model) -> String {
     let sources = &model.sources;
     match sources.work {
@@ -162,7 +162,7 @@ fn search(ui: &mut Ui, place: Rect, state: &mut ElementsState) {
     }
 }
 
-/// The form for a new source, below the button that opens it.
+/// Shows the form for a new source below the button that opens it.
 fn add_source(
     button: &Response,
     model: &Model,
@@ -183,7 +183,7 @@ fn add_source(
         });
 }
 
-/// Names of the servers that may be asked now.
+/// Returns the names of the servers that Azel may ask now.
 fn due(model: &Model) -> Vec<String> {
     let sources = model.sources.list.iter().enumerate();
     sources
@@ -198,7 +198,7 @@ fn next_due(model: &Model) -> Option<jiff::Timestamp> {
     model.sources.reports.iter().filter_map(|report| report.pause_end(model.now)).min()
 }
 
-/// Asks the servers that may be asked, and reads all other sources.
+/// Returns the command that asks all servers that Azel may ask now, and reads all other sources.
 pub fn refresh_due(model: &Model) -> UiCommand {
     let command = contract::Command::RefreshSources { names: due(model), forced: false };
     UiCommand::Station(command)

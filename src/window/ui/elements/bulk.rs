@@ -26,7 +26,7 @@ use crate::{
 
 pub(super) const HEIGHT: f32 = 40.0;
 
-/// Draws the bar. `lock`: why favourites may not change now.
+/// Draws the bar. `lock` is the reason why favourites may not change now.
 pub(super) fn show(
     ui: &Ui,
     rect: Rect,

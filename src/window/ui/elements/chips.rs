@@ -1,4 +1,4 @@
-//! The groups of the catalog, of which one is shown, with the export.
+//! Groups of the catalog, one of which is shown, and the export.
 
 use std::collections::BTreeSet;
 
@@ -26,7 +26,7 @@ pub(super) const HEIGHT: f32 = 40.0;
 const CHIP: f32 = 24.0;
 const GAP: f32 = 8.0;
 
-/// Draws the groups, and what is done with the whole table.
+/// Draws the groups and the actions on the whole table.
 pub(super) fn show(
     ui: &Ui,
     rect: Rect,
@@ -38,7 +38,7 @@ pub(super) fn show(
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let chips = chips(model);
-    // A source or group that is gone has no objects to show.
+    // A removed source or group has no objects to show.
     if !chips.iter().any(|(scope, _)| *scope == state.question.scope) {
         state.question.scope = Subset::All;
     }
@@ -50,7 +50,7 @@ pub(super) fn show(
     exported.show(ui, export_at, commands);
 }
 
-/// Draws the chips, and the button behind which those without room stand.
+/// Draws the chips, and a button for the chips without room.
 fn groups(ui: &Ui, inner: Rect, chips: &[(Subset, usize)], state: &mut ElementsState) {
     let widths: Vec<f32> = chips.iter().map(|chip| width(ui, chip)).collect();
     let more = 72.0;
@@ -87,7 +87,7 @@ fn groups(ui: &Ui, inner: Rect, chips: &[(Subset, usize)], state: &mut ElementsS
     });
 }
 
-/// The rows that can be saved.
+/// Rows that Export saves.
 struct Exported {
     numbers: Vec<u32>,
     name: String,
@@ -95,7 +95,7 @@ struct Exported {
 }
 
 impl Exported {
-    /// The marked rows, or all if none is.
+    /// Returns the marked rows, or all rows if none is marked.
     fn new(model: &Model, state: &ElementsState) -> Self {
         let marked = state.selection.marked();
         let (numbers, subset): (Vec<u32>, _) = if marked.is_empty() {
@@ -133,7 +133,7 @@ impl Exported {
     }
 }
 
-/// The groups with the numbers of their objects.
+/// Returns the groups with the numbers of their objects.
 fn chips(model: &Model) -> Vec<(Subset, usize)> {
     let CatalogState::Ready(catalog) = &model.catalog else { return vec![(Subset::All, 0)] };
     let favourites = model.station.favourites.iter();
@@ -144,7 +144,7 @@ fn chips(model: &Model) -> Vec<(Subset, usize)> {
     chips.extend(groups);
     let old = table::shown(model).map_or(0, |answer| answer.old);
     chips.push((Subset::Old, old));
-    // A station file may have two groups of one name.
+    // A station file may have two groups with the same name.
     let names: BTreeSet<&String> = model.station.groups.iter().map(|group| &group.name).collect();
     chips.extend(names.into_iter().map(|name| {
         let own = model.station.in_groups(name).into_iter();

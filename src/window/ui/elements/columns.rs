@@ -12,17 +12,17 @@ use crate::{
     ui::format,
 };
 
-/// Width of the bar of a maximum elevation, for 90 degrees.
+/// Width of the bar of a max elevation of 90 degrees, points.
 pub(super) const BAR: f32 = 40.0;
-/// Room for the number behind the bar.
+/// Room for the number behind the bar, points.
 const BAR_NUMBER: f32 = 34.0;
-/// Free space between two columns.
+/// Free space between two columns, points.
 const GAP: f32 = 12.0;
-/// Left end of the names, behind the marks and stars.
+/// Left end of the names, behind the marks and stars, points.
 const NAME: f32 = PADDING + 54.0;
-/// Width of the stars.
+/// Width of the stars, points.
 const STAR: f32 = 20.0;
-/// Minimum width of the names.
+/// Min width of the names, points.
 const MIN_NAME: f32 = 154.0;
 
 /// The columns behind the names.
@@ -37,7 +37,7 @@ const ALL: [Column; 8] = [
     Column::MaxElevation,
 ];
 
-/// The columns that a table leaves out that is too narrow, the least important first.
+/// Columns that a narrow table leaves out, the least important first.
 const FOLDS: [Column; 8] = [
     Column::Period,
     Column::Inclination,
@@ -49,7 +49,7 @@ const FOLDS: [Column; 8] = [
     Column::NextPass,
 ];
 
-/// The columns for which a table of this width has room.
+/// Returns the columns for which a table of this width has room.
 fn that_fit(width: f32) -> Vec<Column> {
     let mut fit = ALL.to_vec();
     for folded in FOLDS {
@@ -61,7 +61,7 @@ fn that_fit(width: f32) -> Vec<Column> {
     fit
 }
 
-/// Minimum width of a column behind the names, with the gap before it.
+/// Returns the min width of a column behind the names, with the gap before it, points.
 fn min_width_of(column: Column) -> f32 {
     let width = match column {
         Column::Star | Column::Name => 0.0,
@@ -82,7 +82,7 @@ fn min_width(columns: &[Column]) -> f32 {
     NAME + MIN_NAME + others + PADDING
 }
 
-/// How much of the free room a column gets: texts more than numbers.
+/// Returns the share of the free room that a column gets: texts get more than numbers.
 fn weight(column: Column) -> f32 {
     match column {
         Column::Name => 6.0,
@@ -92,12 +92,12 @@ fn weight(column: Column) -> f32 {
     }
 }
 
-/// Returns `true` if the column is aligned to the left.
+/// Returns `true` for a column with text aligned to the left.
 pub(super) fn is_left(column: Column) -> bool {
     matches!(column, Column::Star | Column::Name | Column::From)
 }
 
-/// The shown columns with their places in `row`, which share the room that is left.
+/// Returns the shown columns with their places in `row`. The columns share the free room.
 pub(super) fn places(row: Rect) -> Vec<(Column, Rect)> {
     let others = that_fit(row.width());
     let free = (row.width() - min_width(&others)).max(0.0);
@@ -133,7 +133,7 @@ pub(super) fn head(column: Column, unit: DistanceUnit) -> Cow<'static, str> {
     words.into()
 }
 
-/// The column for screen readers.
+/// Returns the name of the column for screen readers.
 pub(super) fn spoken(column: Column) -> &'static str {
     match column {
         Column::Star => "priority",
@@ -149,10 +149,10 @@ pub(super) fn spoken(column: Column) -> &'static str {
     }
 }
 
-/// The next pass of a row.
+/// Next pass of a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Next {
-    /// Not searched for yet.
+    /// Pass that Azel has not searched for yet.
     Unknown,
     Never,
     At(NextPass),
@@ -167,11 +167,11 @@ impl Next {
     }
 }
 
-/// A row with what its cells say.
+/// Row with the data of its cells.
 pub(super) struct Row<'a> {
     pub(super) elements: &'a Elements,
     pub(super) start_text: &'a str,
-    /// An older set is in use by choice of the operator.
+    /// Flag: the operator chose an older set, which is in use.
     pub(super) is_older_set: bool,
     pub(super) next: Next,
     pub(super) now: Timestamp,
@@ -214,7 +214,7 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// The row for screen readers.
+    /// Returns the row as text for screen readers.
     pub(super) fn spoken(&self, priority: Option<u8>) -> String {
         let cell = |column| self.cell(column);
         let star =
@@ -233,7 +233,7 @@ impl<'a> Row<'a> {
         )
     }
 
-    /// The columns that a narrow table leaves out.
+    /// Returns a tooltip with the columns that a narrow table leaves out.
     pub(super) fn tip(&self) -> String {
         let cell = |column| self.cell(column);
         let designator = self.elements.international_designator().unwrap_or("no designator");

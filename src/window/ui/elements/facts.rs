@@ -15,12 +15,12 @@ use crate::{
     },
 };
 
-/// Height of a line.
+/// Height of a line, points.
 const LINE: f32 = 18.0;
 const TITLE: f32 = 30.0;
-/// Lines across the whole width.
+/// Number of lines across the whole width.
 const WIDE: usize = 4;
-/// Lines of two figures.
+/// Number of lines with two figures.
 const HALVES: usize = 4;
 
 pub(super) const HEIGHT: f32 = TITLE + (WIDE + HALVES) as f32 * LINE + 8.0;
@@ -73,7 +73,7 @@ pub(super) fn show(
     let heights = format!("{heights} {}", format::distance_unit(unit));
     fact(ui, line(3), "Apogee × perigee", &heights, t.t1);
     let figures = figures(elements);
-    // The longer names stand at the right.
+    // The right half holds the longer names.
     let (left, right) = (inner.width() * 0.45, inner.width() * 0.52);
     for (index, pair) in figures.chunks(2).enumerate() {
         let line = line(WIDE + index);

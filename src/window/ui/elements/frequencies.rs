@@ -1,4 +1,4 @@
-//! The frequencies of the selected object, which can be changed here.
+//! Frequencies of the selected object, which the operator can edit here.
 
 use egui::{Align, Layout, RichText, Role, TextEdit, Ui, WidgetInfo};
 
@@ -20,7 +20,7 @@ pub(super) struct Edit {
     text: String,
 }
 
-/// Shows the frequencies. `lock`: why the station's settings may not change now.
+/// Shows the frequencies. `lock` is the reason why the station's settings may not change now.
 pub(super) fn show(
     ui: &mut Ui,
     model: &Model,
@@ -37,7 +37,7 @@ pub(super) fn show(
     let mut is_asked = false;
     ui.horizontal(|ui| {
         ui.label(title.color(t.t1));
-        // Beside the title: below the lines the foot of the inspector would cut it.
+        // Put the button beside the title: below the lines, the foot of the inspector would cut it.
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if !is_edited {
                 let button = egui::Button::new("Edit frequencies");

@@ -21,7 +21,7 @@ use crate::{
 
 const TITLE: f32 = 30.0;
 const LINE: f32 = 38.0;
-/// Epochs closer than this belong to one set: a TLE rounds them.
+/// Max difference between the epochs of one set, seconds: a TLE rounds its epoch.
 const SAME_EPOCH_S: f64 = 0.01;
 
 pub(super) fn height(model: &Model) -> f32 {
@@ -80,7 +80,8 @@ fn one(ui: &Ui, line: Rect, model: &Model, antenna: &AntennaModel, elements: &El
     }
 }
 
-/// Words for the elements on an antenna. `uploaded`: the epoch of the set that was proved on it.
+/// Describes the elements on an antenna. `uploaded` is the epoch of the set that an upload verified
+/// there.
 fn holds(
     antenna: &AntennaModel,
     elements: &Elements,
@@ -114,7 +115,7 @@ fn holds(
     (Tone::Caution, format!("Holds a set that is {age} {way}, as uploaded."))
 }
 
-/// The epoch of an object in the file that was proved on the unit of `antenna`.
+/// Returns the epoch of an object in the file that Azel verified on the unit of `antenna`.
 fn uploaded_epoch(model: &Model, antenna: &AntennaModel, number: u32) -> Option<Timestamp> {
     let uploads = &model.uploads;
     let Stage::Proved(proved) = &uploads.stage else { return None };
@@ -125,7 +126,7 @@ fn uploaded_epoch(model: &Model, antenna: &AntennaModel, number: u32) -> Option<
     objects.iter().find(|object| object.catalog_number == number).map(|object| object.epoch)
 }
 
-/// Age of the knowledge about a unit.
+/// Returns the age of the knowledge about a unit, as text.
 fn known_since(antenna: &AntennaModel, now: Instant) -> String {
     let snapshot = &antenna.snapshot;
     let start = match snapshot.link {

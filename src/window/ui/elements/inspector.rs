@@ -1,4 +1,4 @@
-//! The selected object in detail.
+//! Details of the selected object.
 
 use egui::{Align2, Frame, Margin, Rect, Role, Ui, pos2, vec2};
 
@@ -24,12 +24,12 @@ use crate::{
 };
 
 pub(super) const WIDTH: f32 = 344.0;
-/// Side of the star, which is a button.
+/// Side length of the star button, points.
 const STAR: f32 = 22.0;
 const FOOT: f32 = 88.0;
 const GAP: f32 = 8.0;
 
-/// Draws the panel.
+/// Draws the details of the selected object into `rect`.
 #[allow(clippy::too_many_arguments)]
 pub(super) fn show(
     ui: &mut Ui,
@@ -60,7 +60,7 @@ pub(super) fn show(
     show_foot(ui, foot, model, elements, lock, state, commands);
 }
 
-/// The object that is shown.
+/// Object in the inspector.
 struct Object<'a> {
     model: &'a Model,
     elements: &'a Elements,
@@ -99,7 +99,7 @@ impl Object<'_> {
         });
     }
 
-    /// A click on the pass of a favourite opens it on the sky plot.
+    /// Shows the next passes. A click on the pass of a favourite opens it on the sky plot.
     fn next_passes(
         &self,
         ui: &mut Ui,
@@ -129,7 +129,7 @@ impl Object<'_> {
     }
 }
 
-/// Star, name, number and designator at the left, the countdown at the right.
+/// Shows star, name, number and designator at the left, the countdown at the right.
 fn show_head(
     ui: &Ui,
     rect: Rect,
@@ -226,7 +226,7 @@ fn show_foot(
     }
 }
 
-/// The priority between two buttons that change it.
+/// Shows the priority between two buttons that change it.
 fn show_priority(
     ui: &Ui,
     rect: Rect,

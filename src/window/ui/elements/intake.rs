@@ -1,5 +1,5 @@
-//! Files held over the window, and what was dropped, pasted or chosen: what each holds, and the
-//! choice to keep it.
+//! Intake of files held over the window and of dropped, pasted or chosen elements: the content of
+//! each, and the choice to keep it.
 
 use std::path::{Path, PathBuf};
 
@@ -29,12 +29,12 @@ use crate::{
 
 const ROW: f32 = 30.0;
 const LINE: f32 = 18.0;
-/// Widest card.
+/// Max width of the card, points.
 const WIDEST: f32 = 900.0;
 const CHOICES: f32 = 260.0;
 
-/// Takes files held over the window or dropped, and pasted text; Esc, which is also STOP, closes the
-/// card when nothing is open above it.
+/// Takes files held over the window or dropped, and pasted text. Esc, which also sends STOP, closes
+/// the card if nothing is open above it.
 pub(super) fn take(
     ui: &Ui,
     model: &Model,
@@ -148,7 +148,7 @@ fn dashes(ui: &Ui, rect: Rect, stroke: Stroke) {
     ui.painter().extend(Shape::dashed_line(&path, stroke, 6.0, 4.0));
 }
 
-/// One offer.
+/// Offer with its judgement, as the card shows it.
 struct Shown<'a> {
     model: &'a Model,
     index: usize,
@@ -198,7 +198,7 @@ impl Shown<'_> {
         }
     }
 
-    /// The first refused records, with place and reason.
+    /// Shows the first refused records, with place and reason.
     fn refused(&self, ui: &Ui, rect: Rect) {
         let Some(Judged::Elements(counts)) = self.found else { return };
         let t = theme::tokens(ui);
@@ -262,7 +262,7 @@ impl Shown<'_> {
     }
 }
 
-/// A name that no source has yet.
+/// Returns a name that no source has yet.
 fn free_name(offer: &Offer, model: &Model) -> String {
     let stem = match offer {
         Offer::File(path) => path.file_stem().map(|stem| stem.to_string_lossy().into_owned()),
@@ -280,7 +280,7 @@ fn free_name(offer: &Offer, model: &Model) -> String {
     if is_free(&stem) { stem } else { names.find(|name| is_free(name)).unwrap_or(stem) }
 }
 
-/// Contents of an offer, compared with the elements in use.
+/// Describes the contents of an offer, compared with the elements in use.
 fn holds(counts: &Counts) -> String {
     let parts = [
         (counts.new, "new"),

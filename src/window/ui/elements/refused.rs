@@ -1,4 +1,4 @@
-//! The records that could not be read, with the reason of each.
+//! Records that Azel could not read, with the reason for each.
 
 use egui::{Align2, Rect, Role, ScrollArea, Ui, UiBuilder, pos2, vec2};
 
@@ -21,7 +21,7 @@ const BAR: f32 = 32.0;
 const ROW: f32 = 24.0;
 const MAX_ROWS: usize = 3;
 
-/// Height of the part; none where nothing was refused.
+/// Returns the height of the part, points; zero if no record was refused.
 pub(super) fn height(model: &Model, state: &ElementsState) -> f32 {
     match (refused(&model.sources), state.refused_are_open) {
         (0, _) => 0.0,
@@ -34,7 +34,7 @@ fn refused(sources: &Sources) -> usize {
     sources.reports.iter().map(crate::orbit::SourceReport::refused).sum()
 }
 
-/// The listed refusals with the names of their sources.
+/// Returns the listed refusals with the names of their sources.
 fn listed(sources: &Sources) -> impl Iterator<Item = (&str, &Refusal)> {
     sources.reports.iter().flat_map(|report| {
         let files = report.files.iter().flat_map(|file| &file.merge.refused);

@@ -1,4 +1,4 @@
-//! The menu of a set that is held and not in use: its elements, and how to use it.
+//! Menu of a held set that is not in use: its elements, and how to use it.
 
 use egui::{Grid, Popup, Response, RichText, Ui};
 use jiff::Timestamp;
@@ -24,15 +24,15 @@ use crate::{
     },
 };
 
-/// Width of the menu.
+/// Width of the menu, points.
 const WIDTH: f32 = 320.0;
 
-/// The object whose sets are shown.
+/// Object whose sets the menu shows.
 pub(super) struct Menu<'a> {
     pub(super) model: &'a Model,
-    /// The set in use.
+    /// Set in use.
     pub(super) elements: &'a Elements,
-    /// The newest set, where it is not the one in use.
+    /// Newest set; `None` if it is in use.
     pub(super) newest: Option<&'a Elements>,
     pub(super) detail: Option<&'a ObjectDetail>,
 }
@@ -87,7 +87,7 @@ impl Menu<'_> {
         }
     }
 
-    /// The question whether the set with this epoch is to be used.
+    /// Returns the question that offers the set with this epoch.
     pub(super) fn ask(&self, epoch: Timestamp) -> Question {
         let catalog_number = self.elements.catalog_number();
         let (subject, end_text, yes, choice) = if self.is_newest(epoch) {
@@ -112,7 +112,7 @@ impl Menu<'_> {
         self.newest.is_some_and(|newest| newest.epoch() == epoch)
     }
 
-    /// Change that the set of this epoch makes to the next pass.
+    /// Describes the change that the set of this epoch makes to the next pass.
     fn effect(&self, epoch: Timestamp) -> String {
         let unknown = || "Its effect on the next pass is not known yet.".to_owned();
         let Some(detail) = self.detail else { return unknown() };

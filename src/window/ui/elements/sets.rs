@@ -1,4 +1,4 @@
-//! The sets of the selected object that are held, each against the one in use.
+//! Held sets of the selected object, each compared with the set in use.
 
 use egui::{Align2, Color32, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 use jiff::Timestamp;
@@ -26,16 +26,17 @@ use crate::{
 const TITLE: f32 = 30.0;
 const HEAD: f32 = 18.0;
 const LINE: f32 = 18.0;
-/// The line about the newest set, while an older one is in use.
+/// Height of the line about the newest set, which appears while an older set is in use, points.
 const SIDE_WIDTH: f32 = 30.0;
 
-/// The detail of the object, as far as it is worked out.
+/// Returns the computed detail of the object, if it is ready.
 pub(super) fn detail(model: &Model, number: u32) -> Option<&ObjectDetail> {
     let detail = model.catalog_table.detail.as_ref();
     detail.filter(|object_detail| object_detail.key.elements.catalog_number() == number)
 }
 
-/// `has_aside`: an older set is in use.
+/// Returns the height of the part, points. `has_aside` adds the line that appears while an older
+/// set is in use.
 pub(super) fn height(detail: Option<&ObjectDetail>, has_aside: bool) -> f32 {
     let others = detail.map_or(0, |detail| detail.sets.len());
     let side_width = if has_aside { SIDE_WIDTH } else { 0.0 };
@@ -113,7 +114,7 @@ pub(super) fn show(
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
 }
 
-/// The newest set, which is not in use, and the button that uses it again.
+/// Shows the newest set, which is not in use, and the button that uses it again.
 fn side(
     ui: &Ui,
     line: Rect,
@@ -190,7 +191,8 @@ fn one(
     response.on_hover_text(&words)
 }
 
-/// Parts of a second say nothing about a set that is minutes away.
+/// Returns the decimals of a time difference: none from 100 s on, where parts of a second mean
+/// nothing.
 pub(super) fn time_decimals(late_s: f64) -> usize {
     if late_s.abs() < 100.0 { 2 } else { 0 }
 }

@@ -1,5 +1,5 @@
-//! The sources of the selected object: where its elements come from, which source comes next, and
-//! the menu that sets the order.
+//! Sources of the selected object: the source in use, the next source, and the menu that sets the
+//! order.
 
 use egui::{Align2, Popup, Rect, Role, Stroke, StrokeKind, Ui, pos2};
 
@@ -81,7 +81,7 @@ fn order(model: &Model, number: u32) -> &[String] {
     favourite.map(|favourite| favourite.sources.as_slice()).unwrap_or_default()
 }
 
-/// The order, or the sources of which the newest is used.
+/// Describes the order, or the sources whose newest elements are in use.
 fn value(catalog: &Catalog, number: u32, order: &[String]) -> String {
     if order.is_empty() {
         let sources: Vec<&str> = catalog.groups_of(number).collect();
@@ -131,7 +131,7 @@ mod tests {
 
     const ISS: u32 = 25_544;
 
-    /// A catalog of the ISS with a set of each source, which prefers `own`.
+    /// Returns a catalog with a set of the ISS from each source, which prefers `own`.
     fn catalog(own_epoch: &str, has_choice: bool) -> Catalog {
         let mut text = Vec::new();
         write_omm_json([bundled().unwrap().get(ISS).unwrap()], &mut text).unwrap();

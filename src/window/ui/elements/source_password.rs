@@ -1,4 +1,4 @@
-//! The password of a source with a log-in.
+//! Password of a source with a log-in.
 
 use egui::Ui;
 
@@ -9,10 +9,10 @@ use crate::{
     ui::dialogs::{PasswordDialog, SecretAnswer},
 };
 
-/// The dialog, while it is open for a source.
+/// Dialog for the password, while it is open for a source.
 #[derive(Default)]
 pub(super) struct SourcePassword {
-    /// Name of the source.
+    /// Name of the source that the dialog is open for.
     source: Option<String>,
     dialog: PasswordDialog,
 }
@@ -22,7 +22,7 @@ impl SourcePassword {
         self.source = Some(source.name.clone());
     }
 
-    /// Shows the dialog until it is answered, or its source is gone.
+    /// Shows the dialog until the operator answers or the source is gone.
     pub(super) fn show(&mut self, ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
         let Some(name) = self.source.clone() else { return };
         let Some(user) = user_of(model, &name) else {
@@ -53,7 +53,7 @@ impl SourcePassword {
     }
 }
 
-/// The log-in name of the source called `name`, if it has one.
+/// Returns the log-in name of the source called `name`, if it has one.
 fn user_of<'a>(model: &'a Model, name: &str) -> Option<&'a str> {
     let source = model.sources.list.iter().find(|source| source.name == name)?;
     match &source.place {

@@ -1,4 +1,4 @@
-//! The sources of elements, a row each.
+//! Sources of elements, one row each.
 
 use std::sync::Arc;
 
@@ -26,16 +26,16 @@ use crate::{
 const BAR: f32 = 32.0;
 const HEAD: f32 = 22.0;
 const ROW: f32 = 25.0;
-/// Offered times between two requests that nobody asks for, hours.
+/// Offered intervals between two automatic requests, hours.
 const REFRESH_HOURS: [u32; 5] = [2, 4, 6, 12, 24];
-/// More rows scroll.
+/// Max number of rows before the list scrolls.
 const MAX_ROWS: usize = 7;
-/// Below this height of the view the sources are folded unless opened.
+/// View height below which the sources stay folded until the operator opens them, points.
 const FOLDED_BELOW: f32 = 760.0;
-/// Width of the table that the columns are laid out for.
+/// Table width that the column positions refer to, points.
 const WIDTH: f32 = 1024.0;
 
-/// Ends of the columns.
+/// Ends of the columns in a table of width [`WIDTH`], points.
 const NAME: f32 = 38.0;
 const WHERE: f32 = 196.0;
 const PASSWORD: f32 = 288.0;
@@ -47,7 +47,7 @@ const NEXT: f32 = 826.0;
 const ASK: f32 = 940.0;
 const REMOVE: f32 = 996.0;
 
-/// Height of the sources in a view of height `max_height`.
+/// Returns the height of the sources in a view of height `max_height`, points.
 pub(super) fn height(model: &Model, state: &ElementsState, max_height: f32) -> f32 {
     if !is_open(state, max_height) {
         return BAR;
@@ -99,7 +99,7 @@ pub(super) fn show(
     });
 }
 
-/// Draws the bar; returns `true` when the sources are to be folded or unfolded.
+/// Draws the bar; returns `true` when the operator folds or unfolds the sources.
 fn show_bar(ui: &Ui, rect: Rect, model: &Model, is_open: bool) -> bool {
     let t = theme::tokens(ui);
     let count = format::counted(model.sources.list.len() + 1, "source");
@@ -126,7 +126,7 @@ fn show_bar(ui: &Ui, rect: Rect, model: &Model, is_open: bool) -> bool {
     response.clicked()
 }
 
-/// The gravest state of the sources and of the elements in use.
+/// Returns the most severe state of the sources and of the elements in use.
 fn worst(model: &Model) -> (Tone, String) {
     let sources = &model.sources;
     let bundled = state_of_bundled(model);
@@ -156,8 +156,8 @@ fn worst(model: &Model) -> (Tone, String) {
     bundled.unwrap_or_else(request)
 }
 
-/// The state of the elements that come with the program, by the favourites that use them; `None` if
-/// none does. Without favourites they are in use while no source holds any.
+/// Returns the state of the elements that come with Azel, by the favourites that use them; `None`
+/// if none does. Without favourites, these elements are in use while no source holds any.
 fn state_of_bundled(model: &Model) -> Option<(Tone, String)> {
     let in_use = "The elements that come with Azel are in use";
     let favourites = &model.pass_lists.favourites.satellites;
@@ -202,7 +202,7 @@ fn look(tone: Tone, ui: &Ui) -> (Icon, Color32) {
     }
 }
 
-/// A place in a row between two ends of the layout.
+/// Returns the part of a row between two ends of the layout.
 fn segment(row: Rect, start: f32, end: f32) -> Rect {
     let scale = row.width() / WIDTH;
     row.with_min_x(row.left() + start * scale).with_max_x(row.left() + end * scale)
@@ -342,7 +342,7 @@ impl Row<'_> {
 }
 
 impl Row<'_> {
-    /// A click on when the server is asked next offers to ask it regularly.
+    /// Shows the time of the next request to the server. A click on it offers regular requests.
     fn refresh(&self, ui: &Ui, lock: Option<&str>, commands: &mut Vec<UiCommand>) {
         let Source { name, refresh, .. } = self.source;
         let place = segment(self.place, NEXT - 4.0, ASK - 4.0).shrink2(vec2(0.0, 2.0));
@@ -376,12 +376,12 @@ impl Row<'_> {
     }
 }
 
-/// Texts of a row of any source.
+/// Texts of a row for any source.
 struct Cells<'a> {
     icon: Icon,
     name: &'a str,
     place: &'a str,
-    /// Where the place ends in the layout.
+    /// End of the place in the layout, points.
     place_end: f32,
     state: (Tone, String),
     newest: Option<jiff::Timestamp>,

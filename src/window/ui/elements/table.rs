@@ -32,10 +32,10 @@ use crate::{
 
 pub(super) const HEAD: f32 = 24.0;
 const ROW: f32 = 25.0;
-/// Side of a check box.
+/// Side length of a check box, points.
 const BOX: f32 = 16.0;
 
-/// Draws the head and the rows.
+/// Draws the head and the rows of the table.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -67,7 +67,7 @@ pub(super) fn show(
     state.scroll = scroll;
 }
 
-/// Returns the rows, as long as they belong to the present catalog.
+/// Returns the rows while they belong to the current catalog.
 pub(super) fn shown(model: &Model) -> Option<&Answer> {
     let CatalogState::Ready(catalog) = &model.catalog else { return None };
     let answer = model.catalog_table.answer.as_ref();
@@ -142,7 +142,7 @@ fn paint_box(ui: &Ui, rect: Rect, mark: Option<Icon>) {
     }
 }
 
-/// Data from which all rows are drawn.
+/// Data from which the table draws all rows.
 struct Draws<'a> {
     list: &'a List,
     model: &'a Model,
@@ -283,7 +283,7 @@ fn cell(ui: &Ui, place: Rect, column: Column, row: &Row<'_>) {
     paint::text_in(ui, place, anchor, &words, font, colour);
 }
 
-/// A bar that is full at 90 degrees.
+/// Draws a bar that is full at 90 degrees.
 fn bar(ui: &Ui, place: Rect, degrees: f64) {
     let t = theme::tokens(ui);
     let position = pos2(place.left(), place.center().y - 3.0);
@@ -294,7 +294,7 @@ fn bar(ui: &Ui, place: Rect, degrees: f64) {
     ui.painter().rect_filled(filled, 1, t.other);
 }
 
-/// Marks or unmarks favourites.
+/// Marks or unmarks the objects `numbers` as favourites.
 pub(super) fn favour(numbers: Vec<u32>, is_favourite: bool, commands: &mut Vec<UiCommand>) {
     let command = contract::Command::SetFavourites { numbers, is_favourite };
     commands.push(UiCommand::Station(command));

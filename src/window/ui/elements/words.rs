@@ -1,4 +1,4 @@
-//! Words about sources and the catalog.
+//! Texts about sources and the catalog.
 
 use egui::Color32;
 use jiff::Timestamp;
@@ -26,12 +26,12 @@ use crate::{
     },
 };
 
-/// "1 object", "16 089 objects".
+/// Formats a number of objects, such as "1 object" or "16 089 objects".
 pub(in crate::ui) fn objects(count: usize) -> String {
     format::counted(count, "object")
 }
 
-/// "Priority 1, first".
+/// Formats a priority, such as "Priority 1, first".
 pub(super) fn priority(priority: Priority) -> String {
     let more = match priority.number() {
         1 => ", first",
@@ -45,7 +45,7 @@ pub(super) fn plain(count: usize) -> String {
     format::number(count as f64, 0)
 }
 
-/// The reason why favourites may not change while the preferences are edited.
+/// Reason why favourites may not change while the preferences have unsaved edits.
 pub(super) const EDITED: &str = "Save or revert the preferences before you change favourites.";
 
 /// Returns the reason why no source and no set in use may change now.
@@ -57,7 +57,7 @@ pub(super) fn sources_lock(model: &Model) -> Option<&'static str> {
     })
 }
 
-/// More about the marked objects, of which `old` have old elements.
+/// Describes the age of the marked objects, of which `old` have old elements, and the `lock`.
 pub(super) fn marked(old: usize, lock: Option<&str>) -> String {
     let age = match old {
         0 => String::new(),
@@ -67,12 +67,12 @@ pub(super) fn marked(old: usize, lock: Option<&str>) -> String {
     [&*age, lock.unwrap_or_default()].join(" ").trim().to_owned()
 }
 
-/// A catalog number, in groups from six digits on.
+/// Formats a catalog number, in groups from six digits on.
 pub(super) fn number(number: u32) -> String {
     if number < 100_000 { number.to_string() } else { format::number(f64::from(number), 0) }
 }
 
-/// Heights of apogee and perigee, without their unit.
+/// Formats the heights of apogee and perigee without their unit.
 pub(super) fn heights(heights: Heights, unit: DistanceUnit) -> String {
     let Heights { apogee_km, perigee_km } = heights;
     let [apogee, perigee] =
@@ -80,12 +80,13 @@ pub(super) fn heights(heights: Heights, unit: DistanceUnit) -> String {
     format!("{apogee} × {perigee}")
 }
 
-/// An age of elements, whose epoch may be ahead.
+/// Formats an age of elements, whose epoch may be ahead.
 pub(super) fn age(seconds: f64) -> String {
     if seconds < 0.0 { "ahead".to_owned() } else { format::age(seconds) }
 }
 
-/// Returns the tone of the age of elements: a caution comes sooner in low orbits, which drag changes.
+/// Returns the tone of the age of elements. Low orbits get a caution sooner, because drag changes
+/// them.
 pub(in crate::ui) fn age_tone(elements: &Elements, now: Timestamp) -> Tone {
     let age_s = elements.epoch_distance_s(now);
     let times = if elements.is_geosynchronous() { (30.0, 90.0) } else { (7.0, 30.0) };
@@ -98,7 +99,7 @@ pub(in crate::ui) fn age_tone(elements: &Elements, now: Timestamp) -> Tone {
     }
 }
 
-/// The mark and colour of an age.
+/// Returns the mark and colour of an age.
 pub(in crate::ui) fn age_look(tone: Tone, t: &Tokens) -> (Option<Icon>, Color32) {
     match tone {
         Tone::Bad => (Some(Icon::Cross), t.bad),
@@ -107,7 +108,7 @@ pub(in crate::ui) fn age_look(tone: Tone, t: &Tokens) -> (Option<Icon>, Color32)
     }
 }
 
-/// When the next pass begins.
+/// Describes when the next pass begins.
 pub(super) fn next_pass(next: Next, now: Timestamp) -> String {
     match next {
         Next::Unknown => "…".to_owned(),
@@ -142,7 +143,7 @@ pub(super) fn nothing_found(question: &Question, all: usize) -> String {
     }
 }
 
-/// Location of a source.
+/// Returns the location of a source.
 pub(super) fn place(source: &Source) -> String {
     match &source.place {
         SourcePlace::File(path) | SourcePlace::Folder(path) => path.display().to_string(),
@@ -151,7 +152,7 @@ pub(super) fn place(source: &Source) -> String {
     }
 }
 
-/// The state of a source in a row.
+/// Returns the state of a source in its row.
 pub(super) fn state(
     source: &Source,
     report: Option<&SourceReport>,
@@ -180,7 +181,7 @@ pub(super) fn state(
     }
 }
 
-/// Sentences about the outcome of a source, most important first.
+/// Returns sentences about the outcome of a source, most important first.
 pub(in crate::ui) fn sentences(
     source: &Source,
     report: Option<&SourceReport>,
@@ -224,7 +225,7 @@ pub(in crate::ui) fn sentences(
     lines
 }
 
-/// How many satellites of a source have newer elements elsewhere, such as "12 of 30".
+/// Returns how many satellites of a source have newer elements elsewhere, such as "12 of 30".
 fn older_of(report: &SourceReport) -> String {
     let [older, all] =
         [report.newer_elsewhere, report.objects()].map(|count| format::number(count as f64, 0));
@@ -293,7 +294,7 @@ fn holdings(source: &Source, report: &SourceReport, now: Timestamp) -> (Tone, St
     (Tone::Good, format!("{}{newest}.{age}", objects(report.objects())))
 }
 
-/// Times of the last and the next permitted request to the server.
+/// Describes the times of the last and the next permitted request to the server.
 fn requested(report: &SourceReport, now: Timestamp) -> Option<String> {
     let next = report.next_request(now)?;
     let last = next.checked_sub(FETCH_PAUSE).ok()?;
@@ -306,8 +307,8 @@ fn requested(report: &SourceReport, now: Timestamp) -> Option<String> {
     Some(format!("Asked {ago} ago.{again}"))
 }
 
-/// The confirmation before a premature request to a server; `None` if a request is
-/// permitted now.
+/// Returns the confirmation before a premature request to a server; `None` if Azel may ask the
+/// server now.
 pub(super) fn ask_again(
     name: &str,
     report: Option<&SourceReport>,
@@ -329,14 +330,14 @@ pub(super) fn pause(report: Option<&SourceReport>, now: Timestamp) -> Option<Str
     Some(format!("The server limits requests. It may be asked again from {end}."))
 }
 
-/// Returns `true` if a source may be asked now.
+/// Returns `true` if Azel may ask a source now.
 pub(super) fn is_due(source: &Source, report: Option<&SourceReport>, now: Timestamp) -> bool {
     let awaits_operator = report.is_some_and(SourceReport::awaits_operator);
     let is_asked = source.place.is_server() && !awaits_operator;
     is_asked && report.and_then(|report| report.next_request(now)).is_none_or(|next| next <= now)
 }
 
-/// When a source is asked or read the next time.
+/// Describes when Azel next asks or reads a source.
 pub(super) fn next(source: &Source, report: Option<&SourceReport>, now: Timestamp) -> String {
     if !source.place.is_server() {
         return "when you read it".to_owned();
@@ -355,7 +356,7 @@ pub(super) fn next(source: &Source, report: Option<&SourceReport>, now: Timestam
     }
 }
 
-/// How often a server is asked without the operator.
+/// Describes how often Azel asks a server automatically.
 pub(super) fn refresh(hours: Option<RefreshHours>) -> String {
     match hours {
         None => "Only when you ask".to_owned(),
@@ -368,14 +369,14 @@ fn until_minute(time: Timestamp, now: Timestamp) -> String {
     if far { format::day(time) } else { format::minute(time, now) }
 }
 
-/// How elements are copied.
+/// Format of copied elements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Form {
     Tle,
     Omm,
 }
 
-/// Elements as text. Objects that a TLE cannot carry are left out.
+/// Formats elements as text. Leaves out objects that a TLE cannot carry.
 pub(super) fn copied<'a>(elements: impl Iterator<Item = &'a Elements>, form: Form) -> String {
     match form {
         Form::Tle => elements
@@ -386,14 +387,14 @@ pub(super) fn copied<'a>(elements: impl Iterator<Item = &'a Elements>, form: For
             .collect(),
         Form::Omm => {
             let mut text = Vec::new();
-            // Memory takes everything.
+            // A write to memory cannot fail.
             let _ = write_omm_json(elements, &mut text);
             String::from_utf8(text).unwrap_or_default()
         }
     }
 }
 
-/// Returns `true` if elements are old enough to be mentioned.
+/// Returns `true` if elements are so old that Azel mentions their age.
 pub(super) fn is_old(elements: &Elements, now: Timestamp) -> bool {
     elements.epoch_distance_s(now) > OLD_ELEMENTS_S
 }

@@ -3,7 +3,7 @@
 use super::{number, signed};
 use crate::model::DistanceUnit;
 
-/// The symbol of a unit.
+/// Returns the symbol of a unit.
 pub fn distance_unit(unit: DistanceUnit) -> &'static str {
     match unit {
         DistanceUnit::Kilometres => "km",
@@ -20,22 +20,22 @@ fn in_unit(km: f64, unit: DistanceUnit) -> f64 {
     }
 }
 
-/// A distance, with its unit.
+/// Formats a distance with its unit.
 pub fn distance(km: f64, decimals: usize, unit: DistanceUnit) -> String {
     format!("{} {}", distance_number(km, decimals, unit), distance_unit(unit))
 }
 
-/// A distance for a place where the unit stands beside it.
+/// Formats a distance for a place that shows the unit beside it.
 pub fn distance_number(km: f64, decimals: usize, unit: DistanceUnit) -> String {
     number(in_unit(km, unit), decimals)
 }
 
-/// A speed, with its unit.
+/// Formats a speed with its unit.
 pub fn speed(km_s: f64, unit: DistanceUnit) -> String {
     format!("{}/s", distance(km_s, 2, unit))
 }
 
-/// The speed at which a range grows, with its sign and unit.
+/// Formats a range rate with its sign and unit; positive while the range grows.
 pub fn range_rate(km_s: f64, unit: DistanceUnit) -> String {
     format!("{} {}/s", signed(in_unit(km_s, unit), 2), distance_unit(unit))
 }

@@ -1,6 +1,5 @@
-//! Times for the operator. A time carries its day unless that is the day of the time it is read
-//! against: the present, or the time before it in the same sentence. The day carries its year
-//! in the same way.
+//! Times for the operator. A time carries its day unless that is the day of its reference: the
+//! present, or the time before it in the same sentence. The day carries its year by the same rule.
 
 use jiff::{Timestamp, Zoned, tz::TimeZone};
 
@@ -8,7 +7,7 @@ fn utc(time: Timestamp) -> Zoned {
     time.to_zoned(TimeZone::UTC)
 }
 
-/// `form` of the time of day, after its day where that is not the day of `now`.
+/// Formats the time of day by `form`, after its day if that is not the day of `now`.
 fn on_its_day(time: Timestamp, now: Timestamp, form: &str) -> String {
     let (time, now) = (utc(time), utc(now));
     let day = match time.date() {
@@ -19,99 +18,100 @@ fn on_its_day(time: Timestamp, now: Timestamp, form: &str) -> String {
     time.strftime(&format!("{day}{form}")).to_string()
 }
 
-/// UTC as hh:mm:ssZ, with its day before it where that is not the day of `now`.
+/// Formats UTC as hh:mm:ssZ, after its day if that is not the day of `now`.
 pub fn moment(time: Timestamp, now: Timestamp) -> String {
     on_its_day(time, now, "%H:%M:%SZ")
 }
 
-/// A [`moment`] to the minute, as hh:mmZ.
+/// Formats a [`moment`] to the minute, as hh:mmZ.
 pub fn minute(time: Timestamp, now: Timestamp) -> String {
     on_its_day(time, now, "%H:%MZ")
 }
 
-/// A [`moment`] to the minute within a plot, whose times are all UTC: hh:mm.
+/// Formats a [`moment`] to the minute in a plot, whose times are all UTC: hh:mm.
 pub fn minute_in_plot(time: Timestamp, now: Timestamp) -> String {
     on_its_day(time, now, "%H:%M")
 }
 
-/// A mark of a time axis: UTC as hh:mm, and at midnight the day that begins.
+/// Formats a mark of a time axis: UTC as hh:mm, and at midnight the day that begins.
 pub fn on_axis(time: Timestamp) -> String {
     let time = utc(time);
     time.strftime(if time.hour() == 0 && time.minute() == 0 { "%-d %b" } else { "%H:%M" })
         .to_string()
 }
 
-/// Returns `true` if both are on the same day of UTC.
+/// Returns `true` if both times are on the same UTC day.
 pub fn is_today(time: Timestamp, now: Timestamp) -> bool {
     utc(time).date() == utc(now).date()
 }
 
-/// A [`moment`] with milliseconds; on another day to the second, which takes the same room.
+/// Formats a [`moment`] with milliseconds. On another day it ends at the second, which takes the
+/// same room.
 pub fn millisecond(time: Timestamp, now: Timestamp) -> String {
     on_its_day(time, now, if is_today(time, now) { "%H:%M:%S.%3f" } else { "%H:%M:%S" })
 }
 
-/// Two moments, such as 11:06:12Z to 11:18:40Z.
+/// Formats two moments, such as 11:06:12Z to 11:18:40Z.
 pub fn stretch(start: Timestamp, end: Timestamp, now: Timestamp) -> String {
     format!("{} to {}", moment(start, now), moment(end, start))
 }
 
-/// A [`stretch`] to the minute, such as 11:06Z to 11:18Z.
+/// Formats a [`stretch`] to the minute, such as 11:06Z to 11:18Z.
 pub fn minutes(start: Timestamp, end: Timestamp, now: Timestamp) -> String {
     format!("{} to {}", minute(start, now), minute(end, start))
 }
 
-/// UTC with weekday and date, such as Sat 2026-11-14 11:06:12Z.
+/// Formats UTC with weekday and date, such as Sat 2026-11-14 11:06:12Z.
 pub fn dated(time: Timestamp) -> String {
     utc(time).strftime("%a %Y-%m-%d %H:%M:%SZ").to_string()
 }
 
-/// UTC with its date, such as 2026-11-14 11:06:12Z, for other programs.
+/// Formats UTC with its date for other programs, such as 2026-11-14 11:06:12Z.
 pub fn copied(time: Timestamp) -> String {
     utc(time).strftime("%Y-%m-%d %H:%M:%SZ").to_string()
 }
 
-/// UTC as weekday and ISO date, such as Sat 2026-11-14.
+/// Formats UTC as weekday and ISO date, such as Sat 2026-11-14.
 pub fn date(time: Timestamp) -> String {
     utc(time).strftime("%a %Y-%m-%d").to_string()
 }
 
-/// UTC as ISO date, such as 2026-11-14.
+/// Formats UTC as ISO date, such as 2026-11-14.
 pub fn iso_date(time: Timestamp) -> String {
     utc(time).strftime("%Y-%m-%d").to_string()
 }
 
-/// A day such as 14 Nov.
+/// Formats a day, such as 14 Nov.
 pub fn day(time: Timestamp) -> String {
     utc(time).strftime("%-d %b").to_string()
 }
 
-/// A day such as Sat 14 Nov.
+/// Formats a day with its weekday, such as Sat 14 Nov.
 pub fn weekday(time: Timestamp) -> String {
     utc(time).strftime("%a %-d %b").to_string()
 }
 
-/// The time of the clock: UTC as hh:mm:ss.
+/// Formats the time of the clock: UTC as hh:mm:ss.
 pub fn clock(now: Timestamp) -> String {
     second_of_day(now)
 }
 
-/// The local time of the clock, with its zone.
+/// Formats the local time of the clock, with its zone.
 pub fn local_clock(now: Timestamp) -> String {
     now.to_zoned(TimeZone::system()).strftime("%H:%M:%S local, %Z").to_string()
 }
 
-/// UTC as hh:mm:ss, only below a heading or an axis that names the day.
+/// Formats UTC as hh:mm:ss, only below a heading or an axis that names the day.
 pub fn second_of_day(time: Timestamp) -> String {
     utc(time).strftime("%H:%M:%S").to_string()
 }
 
-/// UTC as hh:mm, only below a heading or an axis that names the day.
+/// Formats UTC as hh:mm, only below a heading or an axis that names the day.
 pub fn minute_of_day(time: Timestamp) -> String {
     utc(time).strftime("%H:%M").to_string()
 }
 
-/// UTC as hh, only below a heading or an axis that names the day.
+/// Formats UTC as hh, only below a heading or an axis that names the day.
 pub fn hour_of_day(time: Timestamp) -> String {
     utc(time).strftime("%H").to_string()
 }

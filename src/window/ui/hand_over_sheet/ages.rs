@@ -1,4 +1,4 @@
-//! How old the elements of the satellites on the sheet are.
+//! Ages of the elements of the satellites on the sheet.
 
 use std::collections::BTreeSet;
 
@@ -15,11 +15,11 @@ use crate::{
 };
 
 const COLUMNS: usize = 4;
-/// Height of a row, millimetres; as in the style sheet.
+/// Height of a row, millimetres; equals the value in the style sheet.
 const ROW_MM: f64 = 3.2;
 const MAX_ROWS: usize = 5;
 
-/// The ages, the oldest first.
+/// List of the ages, the oldest first.
 pub(super) struct List {
     remark: String,
     ages: Vec<Age>,
@@ -86,7 +86,7 @@ impl List {
     }
 }
 
-/// Elements may be of a time to come.
+/// Formats an age, or the time until an epoch in the future.
 fn age_in_words(seconds: f64) -> String {
     if seconds < 0.0 {
         return format!("in {}", format::age(-seconds));

@@ -1,4 +1,4 @@
-//! The table of what the antennas take, in the order of execution.
+//! Table of the schedule's entries, in the order of execution.
 
 mod row;
 
@@ -8,38 +8,40 @@ use row::Row;
 use super::HandOverSheet;
 use crate::ui::page::{SECTION_HEAD_MM, plot, section};
 
-/// Heights of the line with a day and of a row, millimetres; as in the style sheet.
+/// Heights of the line with a day and of a row, millimetres; equal to the values in the style
+/// sheet.
 const DAY_MM: f64 = 3.5;
 const ROW_MM: f64 = 6.0;
-/// Height of the line that counts what does not fit, millimetres.
+/// Height of the line that counts the entries without room, millimetres.
 const MORE_MM: f64 = 3.2;
 const COLUMNS: usize = 3;
 
-/// Returns `true` if a row has its day above it: at the top of a column, and where the day changes.
+/// Returns `true` if a row has its day above it: at the top of a column, and at a change of the
+/// day.
 fn begins_day(rows: &[Row], index: usize) -> bool {
     let before = index.checked_sub(1).and_then(|before| rows.get(before));
     before.map(|before| &before.day) != rows.get(index).map(|row| &row.day)
 }
 
-/// Height of a column with these rows, millimetres.
+/// Returns the height of a column with these rows, millimetres.
 fn column_mm(rows: &[Row]) -> f64 {
     let days = (0..rows.len()).filter(|index| begins_day(rows, *index)).count();
-    // Its heads take the room of a row.
+    // The heads of the column take the room of a row.
     ROW_MM * (rows.len() + 1) as f64 + DAY_MM * days as f64
 }
 
-/// Number of rows that fit in a column.
+/// Returns the number of rows that fit in a column.
 fn fitting(rows: &[Row], room_mm: f64) -> usize {
     let fits = |count: &usize| column_mm(rows.get(..*count).unwrap_or_default()) <= room_mm;
     (1..=rows.len()).take_while(fits).count()
 }
 
 pub(super) struct Table {
-    /// In the order of execution.
+    /// Rows in the order of execution.
     rows: Vec<Row>,
 }
 
-/// The rows of each column, and how many do not fit.
+/// Rows of each column, and the number of rows that do not fit.
 pub(super) struct LaidOut<'a> {
     passes: usize,
     columns: Vec<&'a [Row]>,
@@ -54,7 +56,8 @@ impl Table {
         Self { rows }
     }
 
-    /// One wide column where all fit in it; else narrow ones of two lines a row, with as many as fit.
+    /// Lays all rows out in one wide column if they fit. Otherwise fills narrow columns, with two
+    /// lines a row, as far as there is room.
     pub(super) fn lay_out(&self, room_mm: f64) -> LaidOut<'_> {
         let passes = self.rows.len();
         let room_mm = room_mm - SECTION_HEAD_MM;

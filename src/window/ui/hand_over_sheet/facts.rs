@@ -1,5 +1,5 @@
-//! Facts that the sheet shows beyond the schedule: the passes themselves, the nights, the price of
-//! a pass that is left out.
+//! Facts that the sheet shows beyond the schedule: the passes, the nights, and the price of a
+//! left-out pass.
 
 use jiff::Timestamp;
 
@@ -14,21 +14,21 @@ use crate::{
     station::AntennaId,
 };
 
-/// Points of a track.
+/// Number of points of a track.
 const POINTS: u32 = 30;
-/// Longest time from the start in the key of a pass to the start of the found pass, seconds.
+/// Max time from the start in the key of a pass to the start of the found pass, seconds.
 const SAME_S: f64 = 60.0;
-/// Distance between two looks at the Sun, seconds.
+/// Time between two looks at the Sun, seconds.
 const SUN_STEP_S: f64 = 120.0;
 
-/// Entries that an antenna gives up where it takes a pass that is left out.
+/// Entries that an antenna gives up if it takes a left-out pass.
 pub(super) struct Price<'a> {
     pub(super) antenna: AntennaId,
     pub(super) entries: Vec<&'a Entry>,
 }
 
 impl<'a> HandOverSheet<'a> {
-    /// The entries that are not over at the start of the sheet, in the order of execution.
+    /// Returns the entries that overlap the time of the sheet, in the order of execution.
     pub(super) fn entries(&self) -> Vec<&'a Entry> {
         let schedule: &'a _ = self.schedule;
         let is_shown = |entry: &&Entry| entry.end > self.start && entry.start < self.end;
@@ -41,7 +41,7 @@ impl<'a> HandOverSheet<'a> {
         schedule.left_out.iter().filter(is_shown).collect()
     }
 
-    /// The pass with this key; `None` where the elements are not known any more.
+    /// Returns the pass with this key; `None` if the elements are no longer known.
     pub(super) fn pass(&self, key: PassKey) -> Option<Pass> {
         let (_, propagator) = self.satellites.get(&key.satellite)?;
         let station = self.station;
@@ -53,7 +53,7 @@ impl<'a> HandOverSheet<'a> {
         (seconds_between(key.aos, first.aos.time) < SAME_S).then_some(first)
     }
 
-    /// Directions from one time to another, at equal intervals.
+    /// Returns directions from `start` to `end`, at equal intervals.
     pub(super) fn track(&self, satellite: u32, start: Timestamp, end: Timestamp) -> Vec<AzEl> {
         let Some((_, propagator)) = self.satellites.get(&satellite) else { return Vec::new() };
         let step_s = seconds_between(start, end) / f64::from(POINTS - 1);
@@ -62,7 +62,7 @@ impl<'a> HandOverSheet<'a> {
         looks.map(|look| look.direction).collect()
     }
 
-    /// The spans in which the Sun is down, as far as they are on the sheet.
+    /// Returns the spans on the sheet in which the Sun is down.
     pub(super) fn nights(&self) -> Vec<[Timestamp; 2]> {
         let steps = (seconds_between(self.start, self.end) / SUN_STEP_S).ceil() as u32;
         let mut nights: Vec<[Timestamp; 2]> = Vec::new();
@@ -81,7 +81,8 @@ impl<'a> HandOverSheet<'a> {
     }
 
     /// Returns the entries that an antenna gives up if it takes a pass and nothing else is
-    /// replanned, on the antenna where that is least. `None` if no antenna can take it.
+    /// replanned. Picks the antenna with the lowest price. Returns `None` if no antenna can take
+    /// the pass.
     pub(super) fn price(&self, left: &LeftOut) -> Option<Price<'a>> {
         let schedule: &'a _ = self.schedule;
         let on = |(antenna, reason): &(AntennaId, LeftOutReason)| {
@@ -104,7 +105,7 @@ impl<'a> HandOverSheet<'a> {
             let seconds: f64 = price.entries.iter().map(|entry| entry.counted_s).sum();
             (class, seconds)
         };
-        // A lower priority is given up first, so the greater class is the lesser price.
+        // Give up a lower priority first: the greater class is the lower price.
         left.by_antenna.iter().filter_map(on).min_by(|a, b| {
             let ((a, a_s), (b, b_s)) = (rank(a), rank(b));
             let is_free = |class: Option<_>| class.is_some();

@@ -1,4 +1,4 @@
-//! The passes that are left out: why, and what would be given up for them.
+//! Passes that the schedule leaves out: the reason, and the price of taking them.
 
 use jiff::Timestamp;
 
@@ -14,17 +14,17 @@ use crate::{
     },
 };
 
-/// Heights of the names of the columns, of a row and of the line that counts the rest, millimetres; as
-/// in the style sheet.
+/// Heights of the column names, of a row and of the line that counts the rest, millimetres; equal
+/// to the values in the style sheet.
 const HEADS_MM: f64 = 3.0;
 const ROW_MM: f64 = 6.0;
 const MORE_MM: f64 = 3.0;
-/// Times of a group that are written out.
+/// Max number of times written out for a group.
 const TIMES: usize = 3;
 
-/// The passes in groups of one satellite and one reason.
+/// Left-out passes in groups of one satellite and one reason.
 pub(super) struct List {
-    /// The most important first.
+    /// Groups, the most important first.
     groups: Vec<Group>,
     passes: usize,
 }
@@ -32,7 +32,7 @@ pub(super) struct List {
 struct Group {
     name: String,
     priority: u8,
-    /// In the way is another pass, not a rule or the mount.
+    /// Flag: another pass is in the way, not a rule or the mount.
     is_conflict: bool,
     aos: Vec<Timestamp>,
     max_elevation: String,
@@ -61,7 +61,7 @@ impl List {
         Self { groups, passes: passes.len() }
     }
 
-    /// Height of as much as fits in `room_mm`.
+    /// Returns the height of the part with the groups that fit in `room_mm`, millimetres.
     pub(super) fn height_mm(&self, room_mm: f64) -> f64 {
         let shown = self.fitting(room_mm).len();
         let more_mm = if shown < self.groups.len() { MORE_MM } else { 0.0 };

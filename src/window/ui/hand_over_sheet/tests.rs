@@ -20,7 +20,7 @@ fn hours(count: i64) -> Timestamp {
     start() + SignedDuration::from_hours(count)
 }
 
-/// Elements and propagators of satellites in low orbits.
+/// Returns elements and propagators of satellites in low orbits.
 fn satellites(catalog: &Catalog, count: usize) -> Vec<(Elements, Propagator)> {
     let low = catalog.iter().filter(|elements| (5_400.0..6_900.0).contains(&elements.period_s()));
     let known_satellites =
@@ -28,8 +28,8 @@ fn satellites(catalog: &Catalog, count: usize) -> Vec<(Elements, Propagator)> {
     known_satellites.take(count).collect()
 }
 
-/// A schedule that takes so many of the passes of a day and leaves out so many more, each for the
-/// one before it.
+/// Returns a schedule that takes `used` passes of a day and leaves out `left_out` more. Each
+/// left-out pass conflicts with the last entry.
 fn schedule(
     station: &Station,
     satellites: &[(Elements, Propagator)],
@@ -84,14 +84,14 @@ fn printed(
     HandOverSheet::new(station, schedule, &known_satellites, (start(), hours(48)), start()).html()
 }
 
-/// The sheet of the demo station with so many passes taken and left out.
+/// Returns the sheet of the demo station with these numbers of passes taken and left out.
 fn sheet(counts: (usize, usize)) -> String {
     let station = Station::demo(&DemoAddresses::default());
     let satellites = satellites(&bundled().unwrap(), 60);
     printed(&station, &schedule(&station, &satellites, counts), &satellites)
 }
 
-/// Number of thumbnails: each has one dot.
+/// Returns the number of thumbnails: each has one dot.
 fn dots(page: &str) -> usize {
     page.matches("class=\"filled\" cx=").count()
 }
@@ -130,7 +130,7 @@ fn the_price_of_a_pass_is_what_the_antenna_that_gives_up_least_has_to_drop() {
         let conflict = Conflict { pass: key, class, missing_s: 482.0, others: vec![] };
         (entry.antenna, LeftOutReason::Overlaps(conflict))
     };
-    // The lowest priority, then the shortest.
+    // The price is the lowest priority, then the shortest entry.
     for (entry, number) in schedule.entries.iter_mut().zip([1, 4, 4]) {
         entry.class = class(number);
         entry.counted_s = 100.0 * f64::from(entry.antenna.0);

@@ -1,4 +1,4 @@
-//! The hours of the sheet, a lane for each antenna.
+//! Hours of the sheet, with a lane for each antenna.
 
 use egui::Rangef;
 use jiff::Timestamp;
@@ -15,12 +15,13 @@ use crate::{
     },
 };
 
-/// Heights of a lane and of the names of the hours, millimetres; as in the style sheet.
+/// Heights of a lane and of the names of the hours, millimetres; equal to the values in the style
+/// sheet.
 const LANE_MM: f64 = 4.6;
 const HOURS_MM: f64 = 3.2;
-/// More antennas than this are counted.
+/// Max number of lanes; the sheet counts further antennas.
 const LANES: usize = 8;
-/// A lane as drawn: its width and its height.
+/// Width and height of a lane in units of its drawing.
 const WIDTH: f64 = 1000.0;
 const HEIGHT: f64 = 10.0;
 
@@ -75,7 +76,7 @@ impl HandOverSheet<'_> {
         section("time-line", "Time line (UTC)", remark, &content)
     }
 
-    /// The place of a time that is within the sheet, or of the nearer end of it.
+    /// Returns the x of a time on the sheet, or of the nearer end of the sheet.
     fn x(&self, time: Timestamp) -> f64 {
         self.axis().x_within(time).into()
     }
@@ -85,7 +86,7 @@ impl HandOverSheet<'_> {
         TimeAxis::lasting(self.start, seconds_between(self.start, self.end), x)
     }
 
-    /// Full hours within the sheet.
+    /// Returns the full hours on the sheet.
     fn hours(&self) -> impl Iterator<Item = Timestamp> + use<> {
         self.axis().multiples(3600)
     }

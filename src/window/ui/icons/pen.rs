@@ -1,18 +1,18 @@
-//! A pen for drawing on the grid of an icon.
+//! Pen that draws on the grid of an icon.
 
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
-/// Side of the grid.
+/// Side length of the grid, grid units.
 const GRID: f32 = 20.0;
-/// Width of a line on the grid.
+/// Default width of a line, grid units.
 const STROKE: f32 = 1.5;
-/// Lines thinner than this have flat ends.
+/// Min width of lines with round ends, points.
 const THINNEST_ROUND_POINTS: f32 = 1.4;
-/// Minimum thickness of lines in small icons.
+/// Min width of lines in small icons, points.
 const THINNEST_POINTS: f32 = 1.25;
 
-/// A pen of one colour over the square of one icon; all places and lengths are
-/// in units of the grid, x to the right and y down.
+/// Pen of one colour over the square of one icon. Places and lengths are in grid units, x to the
+/// right and y down.
 pub(super) struct Pen<'a> {
     painter: &'a Painter,
     origin: Pos2,
@@ -40,7 +40,7 @@ impl<'a> Pen<'a> {
         self.thick_line(points, STROKE);
     }
 
-    /// Draws a line in another width.
+    /// Draws a line of the given width, grid units.
     pub(super) fn thick_line(&self, points: &[(f32, f32)], width: f32) {
         let width = self.width(width);
         for pair in points.windows(2) {
@@ -49,7 +49,7 @@ impl<'a> Pen<'a> {
                 self.painter.line_segment(ends, Stroke::new(width, self.colour));
             }
         }
-        // egui ends lines flat. On thin lines a round end would be a smudge.
+        // egui ends lines flat. On a thin line, a round end would be a smudge.
         if width < THINNEST_ROUND_POINTS {
             return;
         }
@@ -58,24 +58,24 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// Draws a closed outline.
+    /// Draws a closed outline with the default line width.
     pub(super) fn outline(&self, points: &[(f32, f32)]) {
         let points = points.iter().map(|point| self.point(*point)).collect();
         self.painter.add(Shape::closed_line(points, Stroke::new(self.width(STROKE), self.colour)));
     }
 
-    /// Draws a ring.
+    /// Draws a ring with the default line width.
     pub(super) fn ring(&self, centre: (f32, f32), radius: f32) {
         let stroke = Stroke::new(self.width(STROKE), self.colour);
         self.painter.circle_stroke(self.point(centre), radius * self.scale, stroke);
     }
 
-    /// Draws a filled disc.
+    /// Draws a disc filled with the pen's colour.
     pub(super) fn disc(&self, centre: (f32, f32), radius: f32) {
         self.painter.circle_filled(self.point(centre), radius * self.scale, self.colour);
     }
 
-    /// Draws a filled convex shape.
+    /// Fills a convex shape with the pen's colour.
     pub(super) fn filled(&self, points: &[(f32, f32)]) {
         let points = points.iter().map(|point| self.point(*point)).collect();
         self.painter.add(Shape::convex_polygon(points, self.colour, Stroke::NONE));
@@ -91,7 +91,7 @@ impl<'a> Pen<'a> {
     }
 }
 
-/// Points on part of a circle, for arcs and filled sectors.
+/// Returns points on part of a circle, for arcs and filled sectors.
 pub(super) fn arc_points(
     (x, y): (f32, f32),
     radius: f32,

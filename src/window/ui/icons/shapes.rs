@@ -1,4 +1,4 @@
-//! The shapes of the icons.
+//! Shapes of the icons.
 
 mod elements;
 
@@ -7,7 +7,7 @@ use super::{
     pen::{Pen, arc_points},
 };
 
-/// Stroke of check and cross: heavier, so that a verdict is legible at 12 points.
+/// Stroke of check and cross, grid units: heavy enough to be legible at 12 points.
 const HEAVY: f32 = 2.0;
 /// Number of vertices for a smooth ellipse of 20 points.
 const ELLIPSE_POINTS: usize = 32;
@@ -127,7 +127,7 @@ pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {
     }
 }
 
-/// A dish that looks up, with its feed, on a foot.
+/// Draws a dish that looks up, with its feed, on a foot.
 fn antenna(pen: &Pen<'_>) {
     pen.outline(&arc_points((9.5, 9.5), 7.0, 45.0, 225.0));
     pen.line(&[(9.5, 9.5), (13.6, 5.4)]);
@@ -155,20 +155,20 @@ fn sliders(pen: &Pen<'_>) {
     }
 }
 
-/// Half a disc with its ground line: the sky over the station.
+/// Draws half a disc with its ground line: the sky over the station.
 pub(super) fn bowl(pen: &Pen<'_>) {
     pen.arc((10.0, 16.0), 8.0, 180.0, 360.0);
     pen.line(&[(1.5, 16.0), (18.5, 16.0)]);
 }
 
-/// The line of sight with the satellite at its end.
+/// Draws the line of sight with the satellite at its end.
 pub(super) fn feed(pen: &Pen<'_>) {
     pen.line(&[(10.0, 16.0), (14.2, 5.5)]);
     pen.disc((14.8, 4.0), 2.2);
 }
 
-/// Points of an ellipse with these half axes, its long axis turned by
-/// `turned_deg` from the right, clockwise.
+/// Returns the points of an ellipse with these half axes. `turned_deg` turns the long axis
+/// clockwise from the right.
 fn ellipse(
     (x, y): (f32, f32),
     long: f32,

@@ -1,4 +1,4 @@
-//! The effects of keys.
+//! Effects of keys.
 
 use egui::{FocusDirection, Ui};
 
@@ -28,59 +28,59 @@ use crate::{
 /// Effect of a key.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Act {
-    /// Handled elsewhere: by the focused control or by the app.
+    /// Effect that the focused control or the app handles.
     There,
     Show(View),
     SelectAntenna(usize),
-    /// Moves the selection by this many passes down the list.
+    /// Move of the selection by this many passes down the list.
     MoveInList(isize),
     NextPass,
     Drawer,
     Track,
-    /// Asks whether the selected antenna is to be parked.
+    /// Question whether to park the selected antenna.
     Park,
     GoTo,
     Manual,
-    /// Changes the offsets of the track of the selected antenna.
+    /// Change of the offsets of the selected antenna's track.
     Offset(OffsetKey),
-    /// Moves the jog rate by this many steps up.
+    /// Move of the jog rate by this many steps up.
     Rate(i32),
-    /// Shows the sky of now.
+    /// Return to the current sky.
     SkyOfNow,
-    /// Zooms the timeline in by this many steps.
+    /// Zoom of the timeline, in steps inwards.
     Zoom(isize),
     UsualZoom,
-    /// Selects the next satellite on that side of the map.
+    /// Selection of the next satellite on that side of the map.
     Nearest(MapDirection),
-    /// Zooms the map in, or out.
+    /// Zoom of the map: in for `true`, out for `false`.
     MapZoom(bool),
     WholeMap,
     MapLayers,
-    /// Selects the pass before or after, in the list of the plan.
+    /// Selection in the list of the plan, this many passes further down.
     PlannedPass(isize),
-    /// Shows the pass so many rows further down in the record.
+    /// Selection in the record, this many rows further down.
     RecordedPass(isize),
-    /// Takes over what would correct the best explanation of the report.
+    /// Correction that the report's best explanation suggests.
     Correct,
-    /// Shows the pass of the report again.
+    /// Replay of the pass in the report.
     ReplayReport,
-    /// Saves the page of the report.
+    /// Export of the report's page.
     ExportReport,
-    /// Moves a replay, or ends it.
+    /// Move or end of a replay.
     Replay(ReplayKey),
-    /// Chooses the selected pass for the schedule, or against it.
+    /// Choice of the selected pass for the schedule, or against it.
     ChoosePass(Option<Take>),
-    /// Asks whether a pass that is left out is to be taken.
+    /// Question whether to take a left-out pass.
     SwapPass,
-    /// Zooms the lanes in, or out.
+    /// Zoom of the lanes: in for `true`, out for `false`.
     PlanZoom(bool),
     UsualPlan,
     Search,
-    /// Shows the next page of the preferences.
+    /// Next page of the preferences.
     NextPage,
-    /// Chooses files of elements.
+    /// Choice of element files.
     ChooseElements,
-    /// Asks the servers of elements that may be asked.
+    /// Request to the element servers that Azel may ask now.
     RefreshElements,
     Acknowledge,
     NextTheme,
@@ -88,7 +88,7 @@ pub(super) enum Act {
 }
 
 impl Act {
-    /// Returns `true` if the effect is possible now; otherwise the key is left to others.
+    /// Returns `true` if the effect is possible now. Otherwise other handlers get the key.
     pub(super) fn is_possible(self, ui: &Ui, model: &Model) -> bool {
         match self {
             Self::SelectAntenna(index) => index < model.antennas.len(),
@@ -102,7 +102,7 @@ impl Act {
             Self::Replay(ReplayKey::Play | ReplayKey::By(_) | ReplayKey::To { .. }) => {
                 replay::takes_keys(ui)
             }
-            // A button with the focus takes it.
+            // A focused button takes the key.
             Self::ReplayReport => ui.memory(|memory| memory.focused().is_none()),
             Self::Search => {
                 !matches!(model.view, View::Antennas | View::Map | View::Plan | View::Setup)
@@ -220,18 +220,18 @@ impl Act {
     }
 }
 
-/// A key of a replay.
+/// Key of a replay.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ReplayKey {
-    /// Plays, or pauses.
+    /// Start or pause of the playback.
     Play,
-    /// Stands at the recorded event before or after.
+    /// Jump to the next or the previous recorded event.
     Event {
         is_next: bool,
     },
-    /// Moves on by so many seconds.
+    /// Move by this many seconds.
     By(f64),
-    /// Goes to the beginning of the stretch, or to its end.
+    /// Jump to the start of the stretch, or to its end.
     To {
         end: bool,
     },
@@ -252,22 +252,22 @@ impl ReplayKey {
     }
 }
 
-/// A key for the offsets of a track.
+/// Key for the offsets of a track.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum OffsetKey {
-    /// Less or more of the time, by a tenth of a second.
+    /// Time offset more or less by a tenth of a second.
     Time {
         is_more: bool,
     },
     TimeToZero,
-    /// Less or more of another, by the step chosen on the card.
+    /// Other offset less or more by the step chosen on the card.
     Less(Offset),
     More(Offset),
     Undo,
 }
 
 impl OffsetKey {
-    /// Those that are on, where the key can change them.
+    /// Returns the offsets in force, if the key can change them.
     fn offsets(self, antenna: &AntennaModel) -> Option<TrackOffsets> {
         let snapshot = &antenna.snapshot;
         if antenna.follows() {
@@ -307,7 +307,7 @@ fn manual(model: &Model, targets: &mut KeyTargets<'_>, commands: &mut Vec<UiComm
     }
 }
 
-/// Focuses the go-to fields. They are open in Position only, which is selected first if
+/// Focuses the go-to fields. They are open only in Position, so the key selects Position first if
 /// another mode is on.
 fn go_to(model: &Model, targets: &mut KeyTargets<'_>, commands: &mut Vec<UiCommand>) {
     let Some(antenna) =

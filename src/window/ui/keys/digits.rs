@@ -1,11 +1,11 @@
 //! Digits by their place on the keyboard.
 //!
-//! Some layouts need Shift for the digits, and have other signs on these keys: on a French keyboard,
-//! Ctrl+4 would be Ctrl+'. Azel names keys by the digits that are printed there.
+//! Some layouts need Shift for the digits and have other signs on these keys. On a French keyboard,
+//! Ctrl+4 would be Ctrl+'. Azel names keys by the digits printed on them.
 
 use egui::{Context, Event, Key, Plugin, RawInput};
 
-/// Turns each key of the digit row into its digit, whatever sign the layout has there.
+/// Plugin that turns each key of the digit row into its digit, whatever sign the layout has there.
 pub struct DigitKeys;
 
 impl Plugin for DigitKeys {
@@ -18,8 +18,8 @@ impl Plugin for DigitKeys {
             let Event::Key { key, physical_key: Some(place), modifiers, .. } = event else {
                 continue;
             };
-            // With Shift or Alt, a layout may have a sign there that is a key of its own: Shift+7
-            // is the slash of a German keyboard.
+            // With Shift or Alt, a layout may have a sign there that Azel uses as a key: Shift+7 is
+            // the slash of a German keyboard.
             if is_digit(*place) && is_sign(*key) && !modifiers.shift && !modifiers.alt {
                 *key = *place;
             }
@@ -43,7 +43,7 @@ fn is_digit(key: Key) -> bool {
     )
 }
 
-/// Returns `false` for letters and for what a number pad does without Num Lock.
+/// Returns `false` for letters, and for the keys of a number pad without Num Lock.
 fn is_sign(key: Key) -> bool {
     matches!(
         key,

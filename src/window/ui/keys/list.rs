@@ -1,4 +1,4 @@
-//! The list of keys, drawn from the table.
+//! List of keys, drawn from the table.
 
 use std::sync::Arc;
 
@@ -10,22 +10,22 @@ use crate::ui::{
     widgets::{button::Button, modal::modal, paint},
 };
 
-/// Width of one of the two columns.
+/// Width of one of the two columns, points.
 const COLUMN: f32 = 472.0;
-/// Gap between the columns.
+/// Gap between the columns, points.
 const GAP: f32 = 16.0;
 const WIDTH: f32 = 2.0 * COLUMN + GAP;
 const KEYS: f32 = 158.0;
 const ROW: f32 = 22.0;
 const HEAD: f32 = 36.0;
-/// Width of the border of the list with its padding.
+/// Width of the border of the list with its padding, points.
 const BORDER: f32 = 17.0;
 const ID: &str = "keys";
-/// Distance of the list below the middle of the window, which leaves the top bar free.
+/// Distance of the list below the middle of the window, points: it leaves the top bar free.
 const DOWN: f32 = 24.0;
 
-/// Distance of a list of this width to the left of the middle of the window, so that the antenna
-/// cards of Operate stay free; 0 in a window that has no room for both.
+/// Returns the distance of a list of this width to the left of the middle of the window, points.
+/// The distance keeps the antenna cards of Operate free; it is 0 in a window without room for both.
 fn side_margin(window: f32, width: f32) -> f32 {
     let room = (window - width) / 2.0;
     let cards = operate::card::WIDTH * (1 + operate::side_cards(window)) as f32;
@@ -89,13 +89,13 @@ pub fn show(ui: &Ui, open: &mut bool) {
     }
 }
 
-/// Effect of the keys of a line, wrapped in its column.
+/// Lays out the effect of a line's keys, wrapped in its column.
 fn does(ui: &Ui, binding: &Binding) -> Arc<Galley> {
     let colour = theme::tokens(ui).t2;
     ui.painter().layout(binding.does_where(), text::small(), colour, COLUMN - KEYS)
 }
 
-/// The keys of a line as labelled on the keyboard, such as "Ctrl 1 to 8".
+/// Returns the keys of a line as labelled on the keyboard, such as "Ctrl 1 to 8".
 pub fn in_words(binding: &Binding) -> String {
     let before = match binding.modifiers {
         Modifiers::COMMAND => "Ctrl ",
@@ -109,7 +109,7 @@ pub fn in_words(binding: &Binding) -> String {
     if words.len() == 4 && binding.keys().all(is_arrow) {
         return if before.is_empty() { "Arrows".to_owned() } else { format!("{before}arrows") };
     }
-    // A comma is a key too.
+    // A comma as separator would look like the comma key.
     let separator = if words.contains(&",") { "   " } else { ", " };
     let runs = words.chunk_by(|one, next| follows(one, next)).flat_map(|run| match run {
         [first, _, .., last] => vec![format!("{first} to {last}")],
@@ -134,7 +134,7 @@ fn is_arrow(key: Key) -> bool {
     matches!(key, Key::ArrowLeft | Key::ArrowRight | Key::ArrowUp | Key::ArrowDown)
 }
 
-/// A key as labelled on the keyboard.
+/// Returns the label of a key on the keyboard.
 pub fn word(key: Key) -> &'static str {
     match key {
         Key::Escape => "Esc",

@@ -1,13 +1,13 @@
-//! The triangles of lines, discs, rings and rounded rectangles.
+//! Triangles of lines, discs, rings and rounded rectangles.
 
 use std::f32::consts::{FRAC_PI_2, TAU};
 
 use egui::{Color32, Mesh, Pos2, Rect, Shape, Stroke, Vec2, epaint::CornerRadiusF32, pos2};
 
-/// Maximum distance of a side from its arc, pixels: too small to see.
+/// Max distance of a side from its arc, pixels: too small to see.
 const FLATNESS_PX: f32 = 0.1;
 
-/// Rectangles of two triangles each.
+/// Returns rectangles of two triangles each.
 pub(super) fn plain(rects: &[Rect], colour: Color32) -> Shape {
     let mut mesh = Mesh::default();
     for rect in rects {
@@ -16,7 +16,7 @@ pub(super) fn plain(rects: &[Rect], colour: Color32) -> Shape {
     Shape::mesh(mesh)
 }
 
-/// A line of a pixel or less, which fades over a pixel on both sides.
+/// Returns a line of at most a pixel, which fades over a pixel on both sides.
 pub(super) fn thin_line(start: Pos2, last: Pos2, stroke: Stroke, scale: f32) -> Shape {
     let side = (last - start).normalized().rot90() / scale;
     let colour = stroke.color.gamma_multiply(stroke.width * scale);
@@ -32,7 +32,7 @@ pub(super) fn thin_line(start: Pos2, last: Pos2, stroke: Stroke, scale: f32) -> 
     Shape::mesh(mesh)
 }
 
-/// A convex shape, clockwise on the screen, whose edge fades over a pixel.
+/// Returns a convex shape whose edge fades over a pixel. The outline runs clockwise on the screen.
 pub(super) fn soft(outline: &[Pos2], colour: Color32, scale: f32) -> Shape {
     let half_px = 0.5 / scale;
     let mut mesh = Mesh::default();
@@ -41,7 +41,7 @@ pub(super) fn soft(outline: &[Pos2], colour: Color32, scale: f32) -> Shape {
     Shape::mesh(mesh)
 }
 
-/// A line along a closed convex outline, clockwise on the screen.
+/// Returns a line along a closed convex outline, clockwise on the screen.
 pub(super) fn ring(outline: &[Pos2], stroke: Stroke, scale: f32) -> Shape {
     let colour = stroke.color.gamma_multiply((stroke.width * scale).min(1.0));
     let pixel = 1.0 / scale;
@@ -58,14 +58,14 @@ pub(super) fn ring(outline: &[Pos2], stroke: Stroke, scale: f32) -> Shape {
     Shape::mesh(mesh)
 }
 
-/// The corners of a circle, clockwise.
+/// Returns the corners of a circle, clockwise.
 pub(super) fn circle(centre: Pos2, radius: f32, scale: f32) -> Vec<Pos2> {
     let sides = sides(radius, scale);
     let step = TAU / f32::from(sides);
     (0..sides).map(|side| centre + radius * Vec2::angled(step * f32::from(side))).collect()
 }
 
-/// The outline of a rectangle with rounded corners, clockwise.
+/// Returns the outline of a rectangle with rounded corners, clockwise.
 pub(super) fn rounded(rect: Rect, radius: CornerRadiusF32) -> Vec<Pos2> {
     let max = rect.size().min_elem() / 2.0;
     let corners = [
@@ -94,7 +94,7 @@ fn sides(radius: f32, scale: f32) -> u16 {
     (TAU / 2.0 * (radius * scale / (2.0 * FLATNESS_PX)).sqrt()).ceil().clamp(16.0, 512.0) as u16
 }
 
-/// One closed line of vertices for each distance to the outline, joined to bands.
+/// Adds one closed line of vertices for each distance to the outline, joined to bands.
 fn loops(mesh: &mut Mesh, outline: &[Pos2], edges: &[(f32, Color32)]) {
     let count = outline.len();
     let width = edges.len() as u32;
@@ -102,7 +102,7 @@ fn loops(mesh: &mut Mesh, outline: &[Pos2], edges: &[(f32, Color32)]) {
     for index in 0..count {
         let before = (corner(index) - corner(index + count - 1)).normalized().rot90();
         let after = (corner(index + 1) - corner(index)).normalized().rot90();
-        // Mitre: as far out as both neighbouring sides reach.
+        // Mitre: extend the corner as far out as both neighbouring sides reach.
         let outwards = (before + after) / (1.0 + before.dot(after)).max(0.5);
         for (distance, colour) in edges {
             mesh.colored_vertex(corner(index) + outwards * *distance, *colour);
@@ -120,9 +120,8 @@ fn quad(mesh: &mut Mesh, a: u32, b: u32, c: u32, d: u32) {
     mesh.add_triangle(a, c, d);
 }
 
-/// Fills between the innermost vertices from `first` to `last`, of which there
-/// is one in `width` vertices: the largest triangle in the middle, then both
-/// sides in the same way.
+/// Fills between the innermost vertices from `first` to `last`, one in `width` vertices: the
+/// largest triangle in the middle, then both sides in the same way.
 fn fill_inside(mesh: &mut Mesh, width: usize, first: usize, last: usize) {
     let middle = usize::midpoint(first, last);
     if middle == first {

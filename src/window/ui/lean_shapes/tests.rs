@@ -8,12 +8,12 @@ use super::*;
 
 const COLOUR: Color32 = Color32::WHITE;
 
-/// The painted result of a shape.
+/// Painted result of a shape.
 struct Picture {
     /// Area times opacity, square points.
     ink: f32,
     triangles: usize,
-    /// Around all vertices that are not clear.
+    /// Bounds of all vertices that are not transparent.
     bounds: Rect,
 }
 
@@ -44,7 +44,7 @@ fn lean(mut shape: Shape, scale: f32) -> Shape {
     shape
 }
 
-/// The shapes of the views, on and off the borders of pixels.
+/// Returns the shapes of the views, on and off the borders of pixels.
 fn shapes() -> Vec<(&'static str, Shape)> {
     let stroke = |width: f32| Stroke::new(width, COLOUR);
     let rect = Rect::from_min_size(pos2(20.3, 30.0), vec2(200.0, 41.0));

@@ -1,4 +1,4 @@
-//! The controls above the map.
+//! Controls above the map.
 
 use egui::{
     Align, Align2, Layout, Popup, PopupCloseBehavior, Rect, Response, Ui, UiBuilder, pos2, vec2,
@@ -19,18 +19,18 @@ use crate::{
     },
 };
 
-/// Height of the bar.
+/// Height of the bar, points.
 pub(super) const HEIGHT: f32 = 56.0;
 const GAP: f32 = 8.0;
-/// Distance between two check boxes.
+/// Distance between two check boxes, points.
 const BOX_GAP: f32 = 14.0;
-/// Width of the title and the line below it.
+/// Width of the title and the line below it, points.
 const TITLE: f32 = 268.0;
 const SEGMENTS: f32 = 172.0;
-/// Minimum width of the title in a small window.
+/// Min width of the title in a small window, points.
 const SMALL_TITLE: f32 = 160.0;
 
-/// Draws the controls. `has_drawer`: a button opens the inspector.
+/// Draws the controls. With `has_drawer`, a button opens the inspector.
 pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, has_drawer: bool, state: &mut MapState) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);
@@ -103,7 +103,7 @@ fn scope(ui: &Ui, place: Rect, shown: &mut Shown) {
     }
 }
 
-/// All layers, in a list below their button or by its key.
+/// Shows all layers in a list that the button or a key opens.
 fn choose_layers(button: &Response, state: &mut MapState) {
     if std::mem::take(&mut state.layers_key) {
         Popup::toggle_id(&button.ctx, Popup::default_response_id(button));
@@ -121,7 +121,7 @@ fn choose_layers(button: &Response, state: &mut MapState) {
         });
 }
 
-/// The layers that have a check box of their own.
+/// Returns the layers with their own check box in the bar.
 fn first(layers: &mut MapLayers) -> [(&mut bool, &'static str); 4] {
     [
         (&mut layers.tracks, "Tracks"),

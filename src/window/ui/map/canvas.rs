@@ -1,4 +1,4 @@
-//! The map itself.
+//! Canvas of the map.
 
 use egui::{Align2, Color32, Rect, Shape, Stroke, StrokeKind, Ui, UiBuilder, vec2};
 
@@ -16,12 +16,12 @@ use crate::{
     },
 };
 
-/// Share of the fill of the selected footprint.
+/// Opacity of the fill of the selected footprint, 0 to 1.
 const FILL: f32 = 0.6;
 /// Distance of names from the numbers of the grid, points.
 const MARGIN: f32 = 3.0;
 
-/// Draws the map of the whole world into `rect`, of which `visible` is not covered.
+/// Draws the map of the whole world into `rect`. `visible` is the part that nothing covers.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -122,7 +122,7 @@ fn paint_map(
     }
 }
 
-/// The boxes of the satellites and the station.
+/// Returns the boxes of the satellites and the station.
 fn marks<'a>(
     projection: &'a Projection,
     model: &Model,
@@ -140,7 +140,7 @@ fn outline(ui: &Ui, projection: &Projection, cap: &Cap, width: f32, colour: Colo
     }
 }
 
-/// The place under the pointer, in the lower right corner.
+/// Shows the place under the pointer, in the lower right corner.
 fn pointed_at(ui: &Ui, visible: Rect, place: GroundPoint, t: &Tokens) {
     let words = words::place(place);
     let galley = ui.painter().layout_no_wrap(words.clone(), text::small(), t.t1);

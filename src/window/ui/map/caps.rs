@@ -5,7 +5,7 @@ use egui::{Color32, Mesh, Pos2};
 use super::projection::Projection;
 use crate::astro::{Cap, CapRow};
 
-/// The fill of a cap. A mesh, as egui fills only convex shapes.
+/// Fills a cap with a mesh, because egui fills only convex shapes.
 pub(super) fn fill(projection: &Projection, cap: &Cap, colour: Color32) -> Mesh {
     let centre_deg = cap.centre.longitude.degrees() as f32;
     let mut mesh = Mesh::default();
@@ -26,8 +26,8 @@ pub(super) fn fill(projection: &Projection, cap: &Cap, colour: Color32) -> Mesh 
     mesh
 }
 
-/// The edge of a cap, on every turn on which it is seen: a closed line, or around a pole a line
-/// from edge to edge of the world.
+/// Returns the edge of a cap on every visible turn: a closed line, or around a pole a line from
+/// edge to edge of the world.
 pub(super) fn outline(projection: &Projection, cap: &Cap) -> Vec<Vec<Pos2>> {
     let centre_deg = cap.centre.longitude.degrees() as f32;
     let edge = cap.edge();
@@ -39,7 +39,7 @@ pub(super) fn outline(projection: &Projection, cap: &Cap) -> Vec<Vec<Pos2>> {
         down.into_iter().chain(up.into_iter().rev()).collect::<Vec<_>>()
     };
     let line = if is_open(edge.last()) {
-        // Over the South Pole: up one side and down the other.
+        // Over the South Pole the line goes up one side and down the other.
         west.into_iter().rev().chain(east).collect()
     } else {
         let mut line = down_and_up(east, west);
@@ -51,7 +51,8 @@ pub(super) fn outline(projection: &Projection, cap: &Cap) -> Vec<Vec<Pos2>> {
     projection.copies(&line)
 }
 
-/// The west and the east end of a row as longitude, which goes on, and latitude.
+/// Returns the west and the east end of a row as longitude, beyond 180 degrees without a wrap, and
+/// latitude.
 fn ends(centre_deg: f32, row: &CapRow) -> [(f32, f32); 2] {
     let (half_width, latitude) = (row.half_width.degrees() as f32, row.latitude.degrees() as f32);
     [(centre_deg - half_width, latitude), (centre_deg + half_width, latitude)]
@@ -77,7 +78,7 @@ mod tests {
         Projection::new(WORLD, Zoom::default())
     }
 
-    /// The area of the mesh within the world, square points.
+    /// Returns `true` if the mesh covers `position`.
     fn holds(mesh: &Mesh, position: Pos2) -> bool {
         mesh.indices.as_chunks::<3>().0.iter().any(|corners| {
             let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize].pos);

@@ -1,4 +1,4 @@
-//! The figures of the selected satellite.
+//! Figures of the selected satellite.
 
 use egui::{Rect, Ui, pos2, vec2};
 
@@ -8,14 +8,14 @@ use crate::{
     ui::{format, theme, widgets::paint},
 };
 
-/// Height of a line.
+/// Height of a line, points.
 const LINE: f32 = 20.0;
 const COUNT: usize = 7;
 
-/// Height of all lines.
+/// Height of all lines, points.
 pub(super) const HEIGHT: f32 = COUNT as f32 * LINE;
 
-/// Draws the lines into `rect`.
+/// Draws the lines of the figures into `rect`.
 pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, satellite: &GlobeSatellite) {
     let t = theme::tokens(ui);
     for (index, (name, value)) in facts(model, satellite).into_iter().enumerate() {

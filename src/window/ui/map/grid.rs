@@ -7,16 +7,16 @@ use crate::ui::{format, text, tokens::Tokens};
 
 /// Distance between two dots, points.
 const DOTS: f32 = 6.0;
-/// A section narrower than this has twice as many lines, degrees.
+/// Section width below which the grid has twice as many lines, degrees.
 const CLOSE_DEG: f32 = 200.0;
 
-/// Distance between two lines, degrees.
+/// Returns the distance between two lines, degrees.
 fn step(projection: &Projection) -> i32 {
     let [west, east] = projection.longitudes();
     if east - west > CLOSE_DEG { 30 } else { 15 }
 }
 
-/// The parallels of the map with their heights.
+/// Returns the parallels of the map, degrees, with their y.
 fn parallels(projection: Projection) -> impl Iterator<Item = (i32, f32)> {
     let (step, latitudes) = (step(&projection), projection.latitudes());
     let count = 90 / step;
@@ -26,7 +26,7 @@ fn parallels(projection: Projection) -> impl Iterator<Item = (i32, f32)> {
         .map(move |latitude| (latitude, projection.point_at(0.0, latitude as f32).y))
 }
 
-/// The meridians of the map, of any turn, with their places.
+/// Returns the meridians of the map, degrees of any turn, with their x.
 fn meridians(projection: Projection) -> impl Iterator<Item = (i32, f32)> {
     let step = step(&projection);
     let [west, east] = projection.longitudes().map(|longitude| longitude / step as f32);
@@ -35,7 +35,8 @@ fn meridians(projection: Projection) -> impl Iterator<Item = (i32, f32)> {
         .map(move |longitude| (longitude, projection.point_at(longitude as f32, 0.0).x))
 }
 
-/// The lines as dots, the equator whole. A mesh, which is kept.
+/// Returns a mesh of the lines as dots, with the equator as a whole line. The caller caches the
+/// mesh.
 pub(super) fn lines(projection: Projection, colour: Color32) -> Mesh {
     let world = projection.world;
     let mut mesh = Mesh::default();
@@ -62,7 +63,7 @@ pub(super) fn lines(projection: Projection, colour: Color32) -> Mesh {
     mesh
 }
 
-/// Paints the numbers at the left and the lower edge, but for those below a mark. Returns their
+/// Paints the numbers at the left and the lower edge, except those below a mark. Returns their
 /// boxes.
 pub(super) fn numbers(
     painter: &Painter,

@@ -1,4 +1,4 @@
-//! The ground of the map: sea, land, grid, day and night; and the station.
+//! Ground of the map: sea, land, grid, day and night; and the station.
 
 use egui::{Color32, Painter, Pos2, Shape, Stroke, vec2};
 
@@ -12,10 +12,10 @@ use crate::{
     ui::{sky_plot::geometry::dashed, tokens::Tokens},
 };
 
-/// Share of the day's light that the night takes.
+/// Share of the daylight that the night takes, 0 to 1.
 const NIGHT: f32 = 0.45;
 
-/// Paints the ground.
+/// Paints sea, land and grid; also the night if its layer is on.
 pub(super) fn paint(
     painter: &Painter,
     projection: Projection,
@@ -37,12 +37,12 @@ pub(super) fn paint(
     }
 }
 
-/// The edge of the night. Its dots are no dashes of a track, in one hue as well.
+/// Paints the edge of the night. Its dots differ from the dashes of a track even without colour.
 pub(super) fn terminator(painter: &Painter, line: &[Pos2], t: &Tokens) {
     painter.extend(dashed(line, 1.5, 3.0, Stroke::new(1.5, t.sun)));
 }
 
-/// The station: an open triangle.
+/// Paints the station as an open triangle.
 pub(super) fn station(painter: &Painter, position: Pos2, t: &Tokens) {
     let corners =
         vec![position + vec2(0.0, -7.0), position + vec2(6.5, 5.0), position + vec2(-6.5, 5.0)];
@@ -53,7 +53,7 @@ pub(super) fn station(painter: &Painter, position: Pos2, t: &Tokens) {
     painter.add(Shape::closed_line(corners, Stroke::new(1.75, t.t1)));
 }
 
-/// The colour of the footprint of a satellite that is not selected.
+/// Returns the colour of the footprint of a satellite that is not selected.
 pub(super) fn edge(is_up: bool, t: &Tokens) -> Color32 {
     if is_up { t.t3 } else { t.hatch }
 }

@@ -1,4 +1,4 @@
-//! The selected satellite in detail.
+//! Details of the selected satellite.
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
@@ -22,21 +22,21 @@ use crate::{
     },
 };
 
-/// Next passes that are shown.
+/// Max number of next passes shown.
 const PASSES: usize = 3;
 const PLOT: f32 = 252.0;
-/// Height of the foot with its buttons.
+/// Height of the foot with its buttons, points.
 const FOOT: f32 = 60.0;
 const GAP: f32 = 8.0;
 
-/// Draws the panel.
+/// Draws the details of the selected satellite into `rect`.
 pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
     inspector::show_ground(ui, rect);
     let Some(satellite) = model.globe.selected() else {
         let words = "Click a satellite on the map or in the table.";
         return inspector::show_nothing(ui, rect, "No satellite selected", words);
     };
-    // The selected pass may be over.
+    // The selected pass may be over: the next pass of the satellite replaces it.
     let predicted = model.selected_pass().or_else(|| model.pass_of(satellite.number()));
     let Parts { head, body, foot } = Parts::new(rect, FOOT);
     show_head(ui, head, model, satellite, predicted);
@@ -62,7 +62,7 @@ fn show_head(
     inspector::show_head(ui, rect, "map", head);
 }
 
-/// The next event of a pass and the time until then.
+/// Returns the next event of a pass and the time until then.
 fn end_of_pass(predicted: &PredictedPass, model: &Model) -> (&'static str, String) {
     let pass = &predicted.pass;
     if predicted.is_always_up() {
@@ -119,9 +119,9 @@ fn parts(
     }
 }
 
-/// The passes of a satellite after the present one.
+/// Returns the passes of a satellite after the current one.
 pub(super) fn later_passes(model: &Model, number: u32) -> Vec<&PredictedPass> {
-    // The satellite may be no favourite.
+    // The satellite may not be a favourite.
     let lists = [&model.pass_lists.favourites, &model.pass_lists.all];
     let is_later = |predicted: &&PredictedPass| {
         predicted.number() == number && predicted.pass.aos.time > model.now
@@ -131,7 +131,8 @@ pub(super) fn later_passes(model: &Model, number: u32) -> Vec<&PredictedPass> {
     found.into_iter().find(|passes| !passes.is_empty()).unwrap_or_default()
 }
 
-/// The antenna whose sentence is shown: that which tracks the satellite, else the selected one.
+/// Returns the antenna whose sentence the inspector shows: the one that tracks the satellite, else
+/// the selected one.
 fn speaker<'a>(model: &'a Model, satellite: &GlobeSatellite) -> Option<&'a AntennaModel> {
     let tracks = |antenna: &&AntennaModel| antenna.tracked_number() == Some(satellite.number());
     model.antennas.iter().find(tracks).or_else(|| model.antenna())

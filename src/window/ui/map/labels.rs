@@ -1,4 +1,4 @@
-//! The names and times on the map.
+//! Names and times on the map.
 
 use egui::{Pos2, Rect};
 
@@ -16,16 +16,16 @@ use crate::{
     },
 };
 
-/// So near to the right edge names stand at the left of their marks, points.
+/// Distance to the right edge below which names stand at the left of their marks, points.
 const FLIP: f32 = 110.0;
-/// A mark so near to the edge still has its name, points.
+/// Distance beyond the edge up to which a mark keeps its name, points.
 const EDGE: f32 = 4.0;
-/// The selected name and that of the station stand even where they cover something.
+/// Tolerated covered share of the selected name and the station's name: they always appear.
 const ALWAYS: f32 = 1.0;
-/// A name with more of it covered is left out, 0 to 1.
+/// Max covered share of a visible name, 0 to 1.
 const TOLERANCE: f32 = 0.4;
 
-/// Keeps labels away from a line, as far as it is on the map.
+/// Keeps labels away from the part of a line that is on the map.
 pub(super) fn reserve(labels: &mut Labels<'_>, world: Rect, lines: &[Vec<Pos2>], width: f32) {
     for pair in lines.iter().flat_map(|line| line.windows(2)) {
         let &[start, end] = pair else { continue };

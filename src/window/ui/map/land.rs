@@ -1,5 +1,5 @@
-//! The land: read once from the asset, and made into triangles, with the grid over it, once for each
-//! section of the map.
+//! Land, read once from the asset. Azel makes the triangles of land and grid once for each section
+//! of the map.
 
 use std::sync::{Arc, LazyLock};
 
@@ -11,12 +11,13 @@ use egui::{
 use super::{grid, projection::Projection};
 use crate::ui::tokens::Tokens;
 
-/// Described in `assets/map/README.md`.
+/// Asset with the land, described in `assets/map/README.md`.
 static ASSET: &[u8] = include_bytes!("../../../../assets/map/land-110m.bin");
 
 static OUTLINES: LazyLock<Outlines> = LazyLock::new(|| Outlines::read(ASSET).unwrap_or_default());
 
-/// The land by longitude, which goes on across the date line, and latitude in degrees.
+/// Outlines of the land by longitude and latitude, degrees. Longitudes continue across the date
+/// line.
 #[derive(Debug, Default)]
 struct Outlines {
     rings: Vec<Vec<(f32, f32)>>,
@@ -48,7 +49,7 @@ impl Outlines {
         self.rings.iter().flatten().copied()
     }
 
-    /// The coasts, without the line along which the land around the South Pole is closed.
+    /// Returns the coasts, without the line that closes the land around the South Pole.
     fn coasts(&self) -> impl Iterator<Item = Vec<(f32, f32)>> + '_ {
         let is_pole = |(_, latitude): &(f32, f32)| *latitude <= -89.99;
         self.rings.iter().map(move |ring| {
@@ -62,7 +63,7 @@ impl Outlines {
     }
 }
 
-/// The shapes of land and grid for one section of the map.
+/// Shapes of land and grid for one section of the map.
 pub(super) struct Land {
     made_of: MadeOf,
     fill: Arc<Mesh>,
@@ -77,7 +78,7 @@ struct MadeOf {
     colours: [Color32; 3],
 }
 
-/// Paints the land and the grid, with the shapes of the last frame if it shows the same.
+/// Paints the land and the grid. Reuses the shapes of the last frame if nothing changed.
 pub(super) fn paint(
     painter: &Painter,
     projection: Projection,
@@ -114,7 +115,7 @@ impl Land {
 
 fn filled(outlines: &Outlines, projection: Projection, colour: Color32) -> Mesh {
     let mut mesh = Mesh::with_texture(TextureId::default());
-    // The easternmost land is that of Siberia, beyond the date line.
+    // Siberia, the easternmost land, reaches beyond the date line.
     for turn in projection.turns(-180.0, 191.0) {
         let first = mesh.vertices.len() as u32;
         for (longitude, latitude) in outlines.points() {
@@ -127,7 +128,7 @@ fn filled(outlines: &Outlines, projection: Projection, colour: Color32) -> Mesh 
     mesh
 }
 
-/// The coasts as triangles, so that they are not cut into them with every frame.
+/// Returns the coasts as triangles, to avoid their tessellation in every frame.
 fn drawn(outlines: &Outlines, made_of: &MadeOf, colour: Color32) -> Mesh {
     let options = TessellationOptions::default();
     let mut tessellator = Tessellator::new(made_of.pixels_per_point, options, [1, 1], Vec::new());

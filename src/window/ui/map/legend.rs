@@ -1,4 +1,4 @@
-//! The legend in the bar of the table.
+//! Legend in the bar of the table.
 
 use egui::{Align2, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2};
 
@@ -17,10 +17,10 @@ use crate::{
     },
 };
 
-/// Width of a sample.
+/// Width of a sample, points.
 const SAMPLE: f32 = 16.0;
 const GAP: f32 = 6.0;
-/// Distance between two entries.
+/// Distance between two entries, points.
 const STEP: f32 = 16.0;
 
 type Sample = fn(&Painter, Pos2, &Tokens);

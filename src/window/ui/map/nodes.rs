@@ -1,4 +1,4 @@
-//! The nodes of the map, for the pointer, Tab and screen readers.
+//! Nodes of the map for the pointer, Tab and screen readers.
 
 use egui::{Id, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2};
 
@@ -8,10 +8,10 @@ use crate::{
     ui::tokens::Tokens,
 };
 
-/// Side of the square around a mark that reacts to the pointer, points.
+/// Side length of the square around a mark that reacts to the pointer, points.
 const TARGET: f32 = 20.0;
 
-/// Adds the map as one node, which is dragged and zoomed by the wheel.
+/// Adds the map as one node, which reacts to drags and to the wheel.
 pub(super) fn canvas(ui: &Ui, world: Rect, model: &Model, state: &mut MapState) -> Response {
     let id = ui.make_persistent_id("map");
     let sense = Sense::drag() | Sense::focusable_noninteractive();
@@ -43,13 +43,13 @@ pub(super) fn marks(
     let station = model.station.site.point();
     let position = projection.point(station);
     if projection.world.contains(position) {
-        // Small, so that satellites around it keep the pointer.
+        // Keep the node small: satellites around it need the pointer.
         let place = Rect::from_center_size(position, Vec2::splat(2.0));
         let response = ui.interact(place, canvas.with("station"), Sense::hover());
         let name = format!("Station {}, {}", model.station.name, words::place(station));
         response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &name));
     }
-    // The selected satellite comes last, so that it takes the pointer where two overlap.
+    // Add the selected satellite last: it takes the pointer where two overlap.
     let (selected, others): (Vec<&GlobeSatellite>, Vec<_>) =
         shown.iter().copied().partition(|object| object.is_selected);
     for object in others.into_iter().chain(selected) {
@@ -84,14 +84,14 @@ fn satellite(
         ui.painter().circle_stroke(position, TARGET / 2.0 + 2.0, Stroke::new(2.0, t.sat));
     }
     chosen(&response, object, commands);
-    // The arrows lead on from here rather than from node to node.
+    // Drop the focus: the arrow keys then select satellites instead of moving between nodes.
     if response.clicked() && ui.input(|input| input.pointer.any_released()) {
         response.surrender_focus();
     }
     response.on_hover_text(words::tip(object, model));
 }
 
-/// Takes a click on a satellite, which selects it, and a double click, which opens the sky plot.
+/// Handles a click on a satellite, which selects it, and a double click, which opens the sky plot.
 pub(super) fn chosen(
     response: &Response,
     satellite: &GlobeSatellite,
@@ -105,7 +105,7 @@ pub(super) fn chosen(
     }
 }
 
-/// The corner in which the place under the pointer stands.
+/// Returns the corner that shows the place under the pointer.
 pub(super) fn corner(world: Rect) -> Pos2 {
     pos2(world.right() - 8.0, world.bottom() - 2.0)
 }

@@ -1,4 +1,4 @@
-//! The projection from the ground to points, and the section of the world that it shows.
+//! Projection from the ground to points, and the section of the world that it shows.
 
 use std::ops::RangeInclusive;
 
@@ -6,16 +6,16 @@ use egui::{Pos2, Rect, Vec2, pos2};
 
 use crate::astro::{Angle, GroundPoint};
 
-/// The steps of the zoom.
+/// Magnifications of the zoom.
 const STEPS: [f32; 3] = [1.0, 2.0, 4.0];
 
-/// The section of the world.
+/// Section of the world that the map shows.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Zoom {
     step: usize,
     /// Longitude and latitude of the middle, degrees.
     middle_deg: (f32, f32),
-    /// Turns of the wheel that were no step yet.
+    /// Turn of the wheel since the last zoom step, points.
     wheel: f32,
 }
 
@@ -24,16 +24,16 @@ impl Zoom {
         STEPS.get(self.step).copied().unwrap_or(1.0)
     }
 
-    /// One step closer or further away.
+    /// Zooms one step in or out.
     pub(super) fn step(&mut self, is_closer: bool) {
         let step = if is_closer { self.step + 1 } else { self.step.saturating_sub(1) };
         self.step = step.min(STEPS.len() - 1);
         self.keep_inside();
     }
 
-    /// Takes a turn of the wheel over the point `position` of the map, which keeps its place.
+    /// Zooms by a turn of the wheel. The place under `position` stays where it is.
     pub(super) fn turn(&mut self, points: f32, position: Pos2, world: Rect) {
-        /// Points of the wheel for a step.
+        /// Turn of the wheel for one zoom step, points.
         const STEP: f32 = 40.0;
         self.wheel = if self.wheel * points < 0.0 { points } else { self.wheel + points };
         if self.wheel.abs() < STEP {
@@ -49,7 +49,7 @@ impl Zoom {
         self.keep_inside();
     }
 
-    /// Moves the map by so many points.
+    /// Moves the map by `step` points.
     pub(super) fn drag(&mut self, step: Vec2, world: Rect) {
         let scale = Projection::new(world, *self).scale;
         self.middle_deg.0 -= step.x / scale;
@@ -65,12 +65,13 @@ impl Zoom {
     }
 }
 
-/// Equirectangular: a degree of longitude and of latitude have the same length everywhere.
+/// Equirectangular projection: a degree of longitude and of latitude have the same length
+/// everywhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Projection {
-    /// The map: twice as wide as high.
+    /// Rectangle of the map: twice as wide as high.
     pub(super) world: Rect,
-    /// Points of a degree.
+    /// Length of a degree, points.
     pub(super) scale: f32,
     middle_deg: (f32, f32),
 }
@@ -81,7 +82,7 @@ impl Projection {
         Self { world, scale, middle_deg: zoom.middle_deg }
     }
 
-    /// The point of a longitude, of any turn, and a latitude.
+    /// Returns the point of a longitude, of any turn, and a latitude.
     pub(super) fn point_at(&self, longitude_deg: f32, latitude_deg: f32) -> Pos2 {
         let (longitude, latitude) = self.middle_deg;
         let centre = self.world.center();
@@ -91,20 +92,20 @@ impl Projection {
         )
     }
 
-    /// The point of a place, on the turn that is nearest to the middle.
+    /// Returns the point of a place, on the turn nearest to the middle.
     pub(super) fn point(&self, place: GroundPoint) -> Pos2 {
         let middle = Angle::from_degrees(f64::from(self.middle_deg.0));
         let longitude = (place.longitude - middle).wrapped_180() + middle;
         self.point_at(longitude.degrees() as f32, place.latitude.degrees() as f32)
     }
 
-    /// Longitude, of any turn, and latitude of a point.
+    /// Returns the longitude, of any turn, and latitude of a point.
     fn degrees(&self, position: Pos2) -> (f32, f32) {
         let from_centre = (position - self.world.center()) / self.scale;
         (self.middle_deg.0 + from_centre.x, self.middle_deg.1 - from_centre.y)
     }
 
-    /// The place at a point of the map.
+    /// Returns the place at a point; `None` outside the map.
     pub(super) fn place(&self, position: Pos2) -> Option<GroundPoint> {
         let (longitude, latitude) = self.degrees(position);
         self.world
@@ -112,9 +113,9 @@ impl Projection {
             .then(|| GroundPoint::from_degrees(f64::from(latitude), f64::from(longitude)))
     }
 
-    /// The turns, in degrees, on which something between two longitudes lies on the map.
+    /// Returns the turns, degrees, that bring an object between two longitudes onto the map.
     pub(super) fn turns(&self, from_deg: f32, to_deg: f32) -> impl Iterator<Item = f32> + use<> {
-        // An object that only touches an edge is not visible.
+        // Leave out an object that only touches an edge: it is not visible.
         let [left, right] = self.longitudes();
         let (left, right) = (left + 0.001, right - 0.001);
         let first = ((left - to_deg) / 360.0).ceil() as i32;
@@ -122,19 +123,19 @@ impl Projection {
         (first..=last).map(|turn| turn as f32 * 360.0)
     }
 
-    /// Longitudes of the left and the right edge.
+    /// Returns the longitudes of the left and the right edge.
     pub(super) fn longitudes(&self) -> [f32; 2] {
         let half = self.world.width() / 2.0 / self.scale;
         [self.middle_deg.0 - half, self.middle_deg.0 + half]
     }
 
-    /// Latitudes of the map.
+    /// Returns the latitudes of the map.
     pub(super) fn latitudes(&self) -> RangeInclusive<f32> {
         let half = self.world.height() / 2.0 / self.scale;
         self.middle_deg.1 - half..=self.middle_deg.1 + half
     }
 
-    /// A line whose longitudes go on across the date line, on every turn on which it is seen.
+    /// Returns a line on every visible turn. Its longitudes may cross the date line.
     pub(super) fn lines(&self, places: &[GroundPoint]) -> Vec<Vec<Pos2>> {
         let mut line: Vec<(f32, f32)> = Vec::with_capacity(places.len());
         for place in places {
@@ -146,7 +147,7 @@ impl Projection {
         self.copies(&line)
     }
 
-    /// A line of longitudes that go on and latitudes, on every turn on which it is seen.
+    /// Returns a line of continuous longitudes and latitudes on every visible turn.
     pub(super) fn copies(&self, line: &[(f32, f32)]) -> Vec<Vec<Pos2>> {
         let longitudes = line.iter().map(|(longitude, _)| *longitude);
         let (low, high) = longitudes.fold((f32::MAX, f32::MIN), |(low, high), longitude| {
@@ -164,7 +165,7 @@ impl Projection {
     }
 }
 
-/// The same difference in longitude from -180 to 180 degrees.
+/// Wraps a difference in longitude to -180 to 180 degrees.
 fn wrapped(degrees: f32) -> f32 {
     (degrees + 180.0).rem_euclid(360.0) - 180.0
 }

@@ -1,4 +1,4 @@
-//! The table of where the satellites are, below the map or as a drawer over it.
+//! Table of the satellites' positions, below the map or as a drawer over it.
 
 use std::borrow::Cow;
 
@@ -18,16 +18,15 @@ use crate::{
     },
 };
 
-/// Height of the bar with the title and the legend.
+/// Height of the bar with the title and the legend, points.
 pub(super) const BAR: f32 = 32.0;
-/// Largest height of the bar while the table is folded.
+/// Max height of the bar while the table is folded, points.
 pub(super) const MAX_BAR: f32 = 48.0;
 const HEAD: f32 = 22.0;
 const ROW: f32 = 25.0;
-/// Minimum width for all columns.
+/// Min width of a table with all columns, points.
 const ALL_FROM: f32 = 900.0;
 
-/// The columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Column {
     Satellite,
@@ -62,7 +61,7 @@ impl Column {
         ],
         1024.0,
     );
-    /// The columns of a narrow table, of 632 points.
+    /// Columns of a narrow table, in a table of 632 points.
     const FEWER: (&[(Self, f32)], f32) = (
         &[
             (Self::Satellite, PADDING),
@@ -138,12 +137,12 @@ impl Column {
     }
 }
 
-/// Height of the table with so many rows, without its bar.
+/// Returns the height of the table with this number of rows, without its bar, points.
 pub(super) fn height(rows: f32) -> f32 {
     HEAD + rows * ROW
 }
 
-/// Draws the table; returns `true` when its drawer is to be opened or closed.
+/// Draws the table; returns `true` when the operator opens or closes its drawer.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -173,7 +172,8 @@ pub(super) fn show(
     is_toggled
 }
 
-/// Draws the title; of a drawer it is the button. Returns its right end.
+/// Draws the title, which is the button of a drawer. Returns its right end, and `true` after a
+/// click.
 fn title(ui: &Ui, bar: Rect, is_drawer: bool, is_open: bool) -> (f32, bool) {
     const WORDS: &str = "Where they are";
     let t = theme::tokens(ui);
@@ -201,7 +201,7 @@ fn title(ui: &Ui, bar: Rect, is_drawer: bool, is_open: bool) -> (f32, bool) {
     (place.right(), response.clicked())
 }
 
-/// The shown columns with their rectangles. They spread with the table.
+/// Returns the shown columns with their rectangles, which scale with the table.
 fn columns(row: Rect) -> impl Iterator<Item = (Column, Rect)> {
     let (columns, laid_out) = if row.width() < ALL_FROM { Column::FEWER } else { Column::ALL };
     let scale = row.width() / laid_out;
@@ -226,7 +226,7 @@ fn show_head(ui: &Ui, rect: Rect, unit: DistanceUnit) {
     for (column, place) in columns(rect) {
         let words = column.head(unit);
         let anchor = if column.is_left() { Align2::LEFT_CENTER } else { Align2::RIGHT_CENTER };
-        // The rows are sorted by it.
+        // The arrow marks the column by which the rows are sorted.
         let (font, colour) = if column == Column::Elevation {
             let position = pos2(place.right() + 9.0, rect.center().y);
             icons::paint(ui.painter(), paint::square(position, 10.0), Icon::ChevronDown, t.t2);
@@ -294,7 +294,7 @@ fn show_row(
     nodes::chosen(&response, satellite, commands);
 }
 
-/// The row for screen readers.
+/// Returns the row as text for screen readers.
 fn spoken(satellite: &GlobeSatellite, model: &Model) -> String {
     let cell = |column: Column| column.cell(satellite, model);
     format!(

@@ -15,14 +15,14 @@ const TICK_S: i64 = 20 * 60;
 /// Half the length of a tick, points.
 const TICK: f32 = 5.0;
 
-/// The track of the selected satellite, split at the present, on every turn.
+/// Track of the selected satellite on every turn, split at the current time.
 pub(super) struct Tracks {
     pub(super) flown: Vec<Vec<Pos2>>,
     pub(super) ahead: Vec<Vec<Pos2>>,
     pub(super) ticks: Vec<Tick>,
 }
 
-/// A full time on the track ahead.
+/// Full time on the track ahead.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Tick {
     pub(super) time: Timestamp,
@@ -70,7 +70,7 @@ pub(super) fn paint(painter: &Painter, tracks: &Tracks, t: &Tokens) {
         painter.add(Shape::line(line.clone(), stroke));
     }
     for line in &tracks.ahead {
-        // From the end, so that the dashes stand still while the track ahead gets shorter.
+        // Start at the end: the dashes then stand still while the track ahead gets shorter.
         let backwards: Vec<Pos2> = line.iter().rev().copied().collect();
         painter.extend(dashed(&backwards, 7.0, 5.0, stroke));
     }

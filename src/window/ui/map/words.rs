@@ -12,11 +12,11 @@ use crate::{
     ui::format,
 };
 
-/// The eight winds, from north over east.
+/// Eight compass directions, clockwise from north.
 const WINDS: [&str; 8] =
     ["north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west"];
 
-/// A place such as "37.9° N, 41.5° E".
+/// Formats a place, such as "37.9° N, 41.5° E".
 pub(super) fn place(place: GroundPoint) -> String {
     format!("{}, {}", latitude(place), longitude(place))
 }
@@ -29,7 +29,7 @@ pub(super) fn longitude(place: GroundPoint) -> String {
     format::longitude(place.longitude.degrees(), 1)
 }
 
-/// The second line of the view bar, such as "13 favourites, 2 above the mask at Şile 1".
+/// Returns the second line of the view bar, such as "13 favourites, 2 above the mask at Şile 1".
 pub(super) fn summary(model: &Model, shown: Shown) -> String {
     let counted: Vec<_> =
         model.globe.satellites.iter().filter(|satellite| shown.counts(satellite)).collect();
@@ -43,7 +43,7 @@ pub(super) fn summary(model: &Model, shown: Shown) -> String {
     format!("{count} {kind}, {up} above {lowest} at {}", model.station.name)
 }
 
-/// From where on a satellite is up: "the mask" or "5°".
+/// Returns the limit above which a satellite is up: "the mask" or "5°".
 fn lowest(model: &Model) -> String {
     if model.station.horizon_mask.is_some() {
         return "the mask".to_owned();
@@ -51,7 +51,7 @@ fn lowest(model: &Model) -> String {
     elevation(model.globe.aos_elevation)
 }
 
-/// An elevation of the settings without needless decimals, such as "5°" or "2.5°".
+/// Formats an elevation of the settings without needless decimals, such as "5°" or "2.5°".
 pub(super) fn elevation(elevation: Angle) -> String {
     let degrees = elevation.degrees();
     let is_whole = (degrees - degrees.round()).abs() < 0.05;
@@ -64,7 +64,7 @@ pub(super) fn goes(heading: Option<Angle>) -> &'static str {
     WINDS.get(wind % WINDS.len()).copied().unwrap_or_default()
 }
 
-/// A [`goes`] that needs no head.
+/// Returns [`goes`] with a word that replaces the column head.
 pub(super) fn motion(heading: Option<Angle>) -> String {
     let goes = goes(heading);
     if heading.is_some() { format!("heading {goes}") } else { goes.to_owned() }
@@ -74,7 +74,7 @@ pub(super) fn light(is_sunlit: bool) -> &'static str {
     if is_sunlit { "sunlit" } else { "in shadow" }
 }
 
-/// Start of the next pass, or its end once it is under way.
+/// Returns the start of the next pass, or its end once the pass is under way.
 pub(super) fn next(satellite: &GlobeSatellite, model: &Model) -> String {
     match satellite.next {
         Some(pass) => times(pass, model.now),
@@ -86,7 +86,7 @@ pub(super) fn next(satellite: &GlobeSatellite, model: &Model) -> String {
     }
 }
 
-/// Says that there is no later pass, or why none is known.
+/// Returns a sentence that there is no later pass, or the reason why none is known.
 pub(super) fn no_later_pass(satellite: &GlobeSatellite, model: &Model) -> &'static str {
     match Search::new(satellite, model) {
         Search::None => "Passes are computed for favourites only.",
@@ -95,7 +95,7 @@ pub(super) fn no_later_pass(satellite: &GlobeSatellite, model: &Model) -> &'stat
     }
 }
 
-/// The search for the passes of a satellite.
+/// State of the search for the passes of a satellite.
 enum Search {
     None,
     UnderWay,
@@ -127,7 +127,7 @@ fn times(pass: NextPass, now: Timestamp) -> String {
     }
 }
 
-/// The tool-tip of a satellite.
+/// Returns the tooltip of a satellite.
 pub(super) fn tip(satellite: &GlobeSatellite, model: &Model) -> String {
     let direction = satellite.look.direction;
     format!(

@@ -1,4 +1,4 @@
-//! The antennas that are not selected, and the ends of azimuth axes, for the sky plot.
+//! Unselected antennas and the ends of azimuth axes, for the sky plot.
 
 use std::borrow::Cow;
 
@@ -11,15 +11,15 @@ use crate::{
     ui::sky_plot::{AzimuthStop, Measured, OtherAntenna},
 };
 
-/// Ends closer together than this are one mark, degrees.
+/// Max distance between ends that share one mark, degrees.
 const SAME_DEG: f64 = 1.0;
 
-/// How long each antenna with a lost link has been silent, in the order of the station.
+/// Returns how long each antenna with a lost link has been silent, in the order of the station.
 pub(super) fn silences(model: &Model) -> Vec<Option<String>> {
     model.antennas.iter().map(|antenna| sky::lost_for(model, antenna)).collect()
 }
 
-/// The antennas with a known direction or azimuth, without the selected one.
+/// Returns the antennas with a known direction or azimuth, except the selected one.
 pub(super) fn others<'a>(
     model: &'a Model,
     silences: &'a [Option<String>],
@@ -40,8 +40,8 @@ pub(super) fn others<'a>(
     shown.flatten().collect()
 }
 
-/// The ends of the azimuth axes, those at one azimuth together. `all`: also of the antennas
-/// that are not selected.
+/// Returns the ends of the azimuth axes, grouped by azimuth. With `all`, includes the antennas that
+/// are not selected.
 pub(super) fn stops(model: &Model, all: bool) -> Vec<AzimuthStop<'_>> {
     let mut stops: Vec<AzimuthStop<'_>> = Vec::new();
     let antennas = model.antennas.iter().enumerate();
@@ -60,7 +60,8 @@ pub(super) fn stops(model: &Model, all: bool) -> Vec<AzimuthStop<'_>> {
     stops
 }
 
-/// Both ends of an azimuth axis that has any, as directions of the sky, the CCW end first.
+/// Returns both ends of an azimuth axis as directions in the sky, the CCW end first; `None` without
+/// an azimuth axis.
 pub(super) fn ends(antenna: &AntennaModel) -> Option<[Angle; 2]> {
     let mount = antenna.config.mount.clipped(antenna.snapshot.state.travel_deg);
     let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } = mount else { return None };

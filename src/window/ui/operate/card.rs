@@ -45,33 +45,33 @@ use crate::{
     },
 };
 
-/// Width of the card.
+/// Width of the card, points.
 pub const WIDTH: f32 = 344.0;
-/// Width of the card in a small window.
+/// Width of the card in a small window, points.
 pub const SMALL_WIDTH: f32 = 304.0;
-/// In a card below this height travel and faults fold to one line each.
+/// Card height below which travel and faults fold to one line each, points.
 const FULL_HEIGHT: f32 = 740.0;
 
-/// Input, held keys and open folds. No `Debug`: it may contain a password.
+/// Input, held keys and open folds. The type has no `Debug`, because it may contain a password.
 #[derive(Clone, Default)]
 pub struct CardState {
-    /// Jog and go-to.
+    /// State of jog and go-to.
     pub drive: DriveState,
-    /// Questions that are open below the mode.
+    /// Questions below the mode.
     track: TrackState,
     /// Offsets while tracking.
     pub offsets: OffsetsState,
-    /// The travel gauges are unfolded in a small window.
+    /// Flag: the travel gauges are unfolded in a small window.
     pub travel_open: bool,
-    /// The faults are unfolded in a small window.
+    /// Flag: the faults are unfolded in a small window.
     pub faults_open: bool,
-    /// The readings are unfolded in a small window.
+    /// Flag: the readings are unfolded in a small window.
     readings_open: bool,
-    /// The actions of the make.
+    /// Fold of the actions of the make.
     more_fold: Fold,
-    /// Something is hidden below the edge of the card.
+    /// Flag: the card hides content below its edge.
     goes_on_below: bool,
-    /// The open lock-out dialog.
+    /// Open lock-out dialog.
     maintenance: Option<MaintenanceDialog>,
     standing: HoldState,
     unseen: HoldState,
@@ -81,8 +81,8 @@ pub struct CardState {
 }
 
 impl CardState {
-    /// Call when the card shows another antenna. Clears the input, which was not meant for that
-    /// antenna; folds stay as they are.
+    /// Clears the input when the card shows another antenna, because the operator did not mean it
+    /// for that antenna. Folds stay as they are.
     pub fn change_antenna(&mut self) {
         self.drive = DriveState::default();
         self.track = TrackState::default();
@@ -96,7 +96,7 @@ impl CardState {
         self.unguarded = HoldState::default();
     }
 
-    /// Call when the card of `antenna` disappears. Releases a held jog key.
+    /// Releases a held jog key when the card of `antenna` disappears.
     pub fn hide(&mut self, antenna: Option<AntennaId>, commands: &mut Vec<UiCommand>) {
         self.maintenance = None;
         if self.drive.let_go() {
@@ -146,7 +146,7 @@ impl Cursor {
         rect
     }
 
-    /// [`Self::take`] over the whole width of the card.
+    /// Takes a row like [`Self::take`], over the whole width of the card.
     fn take_across(&mut self, height: f32) -> Rect {
         let row = self.take(height);
         Rect::from_x_y_ranges(self.card.x_range(), row.y_range())
@@ -156,7 +156,7 @@ impl Cursor {
         self.y += height;
     }
 
-    /// [`Self::skip`] for the height that a short card leaves, or a full one.
+    /// Skips `short` points in a short card, `full` points in a full one.
     fn skip_by_room(&mut self, short: f32, full: f32) {
         self.skip(if self.is_short() { short } else { full });
     }
@@ -170,10 +170,12 @@ impl Cursor {
     }
 }
 
-/// Draws the card of `antenna` in `rect`; `on_cards` are all antennas with a card, `live` is the
-/// live station in place of the controls for moving by hand. State sentence, axes table, mode, Track
-/// and these controls always stay in sight; the rest scrolls if it does not fit.
-// The card, its antenna, and the receivers of requests.
+/// Draws the card of `antenna` in `rect`. `on_cards` are all antennas with a card; `live` is the
+/// live station, which replaces the controls for moving by hand.
+///
+/// State sentence, axes table, mode, Track and these controls always stay in sight; the rest
+/// scrolls if it does not fit.
+// The arguments are the card, its antenna, and the receivers of requests.
 #[allow(clippy::too_many_arguments)]
 pub(super) fn show(
     ui: &mut Ui,
@@ -228,7 +230,7 @@ fn upper(
     }
 
     axes::show(ui, at, model, antenna);
-    // Kept also without a prediction: the keys below must not jump.
+    // Keep the bar without a prediction: the keys below must not jump.
     let error_deg = antenna.error().map(|error| error.off_beam.degrees());
     let half_beam_deg = antenna.config.beam_width_deg / 2.0;
     beam_bar::show(ui, at.take(beam_bar::HEIGHT), error_deg, half_beam_deg);
@@ -260,7 +262,7 @@ fn remark(ui: &Ui, at: &mut Cursor, salt: impl AsIdSalt, icon: Icon, colour: Col
     at.y = taken.bottom();
 }
 
-/// Draws the place of the card while there is no antenna.
+/// Draws the placeholder of the card while there is no antenna.
 pub(super) fn none(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
     if model.demo && !matches!(model.catalog, CatalogState::Failed) {
         let (t, inner) = (theme::tokens(ui), rect.shrink(16.0));

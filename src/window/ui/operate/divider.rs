@@ -1,4 +1,4 @@
-//! The divider between pass list and plot, which the operator can drag.
+//! Divider between pass list and plot, which the operator can drag.
 
 use egui::{CursorIcon, Rangef, Rect, Role, Sense, Ui, WidgetInfo};
 
@@ -11,7 +11,7 @@ const REACH: f32 = 4.0;
 pub(super) fn show(ui: &Ui, list: Rect, widths: Rangef, width: &mut Option<u32>) {
     let line = list.with_min_x(list.right() - 1.0);
     let handle = line.expand2(egui::vec2(REACH, 0.0));
-    // For the pointer alone: Tab skips the divider.
+    // The divider takes no keys: Tab skips it.
     let id = ui.make_persistent_id("width of the pass list");
     let response = ui.interact(handle, id, Sense::CLICK | Sense::DRAG);
     response.widget_info(|| WidgetInfo::labeled(Role::Splitter, true, "Width of the pass list"));

@@ -1,4 +1,4 @@
-//! The passes of the list that fit its filters, in the wanted order.
+//! Passes of the list that match its filters, in the chosen order.
 
 use std::{
     collections::{HashMap, HashSet},
@@ -18,7 +18,7 @@ use crate::{
     ui::pass_list::{Arrangement, Filter, Light, Order},
 };
 
-/// Longest time in one frame for judging passes: a whole catalogue takes some seconds.
+/// Max time per frame for judging passes: a whole catalogue takes some seconds.
 const BUDGET: Duration = Duration::from_millis(5);
 
 /// Inputs that the rows depend on.
@@ -29,26 +29,26 @@ struct FilterQuery {
     scope: Scope,
     revision: u64,
     antenna: usize,
-    /// The catalogue whose groups are meant.
+    /// Identity of the catalogue whose groups the filter uses.
     catalog: usize,
 }
 
-/// The found passes, kept until the list or the filters change.
+/// Found passes, kept until the list or the filters change.
 #[derive(Default)]
 pub(super) struct FoundPasses {
     made_of: Option<(FilterQuery, (usize, usize))>,
     /// Places in the list, in the order of the rows.
     places: Vec<usize>,
-    /// The row of each place.
+    /// Row of each place.
     rows: HashMap<usize, usize>,
-    /// Passes that were judged for the wanted filters.
+    /// Passes that Azel has judged for the chosen filters.
     judged: HashMap<PassListKey, bool>,
     is_whole: bool,
 }
 
 impl FoundPasses {
-    /// Finds the passes of the list of `model`, as far as the time of a frame goes. Returns
-    /// `None` where the list is shown as it is.
+    /// Finds the matching passes of `model`, as far as the time of a frame allows. Returns `None`
+    /// if the list needs no filter.
     pub(super) fn arrange(&mut self, model: &Model, filter: &Filter) -> Option<&Self> {
         let (text, arrangement) = (filter.text().to_lowercase(), &filter.arrangement);
         if text.is_empty() && *arrangement == Arrangement::default() {
@@ -76,7 +76,7 @@ impl FoundPasses {
         Some(self)
     }
 
-    /// Returns `true` if every pass was judged.
+    /// Returns `true` if Azel has judged every pass.
     pub(super) fn is_whole(&self) -> bool {
         self.is_whole
     }
@@ -85,12 +85,12 @@ impl FoundPasses {
         self.places.len()
     }
 
-    /// The place in the list of a row.
+    /// Returns the index in the list for a row.
     pub(super) fn place(&self, row: usize) -> Option<usize> {
         self.places.get(row).copied()
     }
 
-    /// The row of a place in the list.
+    /// Returns the row for an index in the list.
     pub(super) fn row(&self, place: usize) -> Option<usize> {
         self.rows.get(&place).copied()
     }
@@ -138,7 +138,7 @@ fn catalog_id(model: &Model) -> usize {
     }
 }
 
-/// The catalog numbers of a group; `None` where none is wanted, or it is gone.
+/// Returns the catalog numbers of a group; `None` if no group is chosen or the group is gone.
 fn group(model: &Model, name: Option<&str>) -> Option<HashSet<u32>> {
     let CatalogState::Ready(catalog) = &model.catalog else { return None };
     let name = name.filter(|name| catalog.groups().any(|(group_name, _)| group_name == *name))?;

@@ -1,5 +1,5 @@
-//! The direction that the operator looks at before the antenna is sent there: clicked in the
-//! sky, or typed. The session judges the way; nothing moves before it is asked for.
+//! Direction that the operator looks at before the antenna moves there: clicked in the sky, or
+//! typed. The session checks the path; nothing moves until the operator requests it.
 
 use std::fmt::Write as _;
 
@@ -28,14 +28,14 @@ use crate::{
     },
 };
 
-/// Size of the note, apart from its sentence.
+/// Width and spacing of the note, points.
 const WIDTH: f32 = 248.0;
 const PADDING: f32 = 10.0;
 const GAP: f32 = 6.0;
-/// Distance of the note from the ghost.
+/// Distance of the note from the ghost, points.
 const MARGIN: f32 = 18.0;
 
-/// The clicked direction, and the path that the session was asked to judge.
+/// Clicked direction, and the path that the session is to judge.
 #[derive(Debug, Clone, Default)]
 pub(super) struct GhostState {
     clicked: Option<Target>,
@@ -61,12 +61,12 @@ impl GhostState {
         self.clicked = None;
     }
 
-    /// The direction that is looked at: a click comes before the fields.
+    /// Returns the direction that the operator looks at: a click takes precedence over the fields.
     pub(super) fn target(&self) -> Option<Target> {
         self.clicked.or(self.typed)
     }
 
-    /// Ends what a session judges.
+    /// Ends the session's check and drops the clicked direction.
     pub(super) fn leave(&mut self, commands: &mut Vec<UiCommand>) {
         self.clicked = None;
         if let Some((antenna, _)) = self.requested.take() {
@@ -82,7 +82,7 @@ fn pointing(target: Target) -> Pointing {
     }
 }
 
-/// Takes what was typed, drops the ghost at a STOP, and asks the session about a new one.
+/// Takes the typed direction, drops the ghost at a STOP, and asks the session about a new ghost.
 pub(super) fn keep(
     ui: &Ui,
     model: &Model,
@@ -122,12 +122,12 @@ pub(super) fn keep(
     ghost.requested = requested;
 }
 
-/// Result of the session's check of the path to `target`.
+/// Returns the result of the session's check of the path to `target`.
 fn judged(antenna: &AntennaModel, target: Target) -> Option<&Preview> {
     antenna.snapshot.preview.as_deref().filter(|preview| preview.target == pointing(target))
 }
 
-/// The ghost for the plot; none for an antenna without elevation.
+/// Returns the ghost for the plot; `None` if its elevation is unknown.
 pub(super) fn shown<'a>(antenna: &'a AntennaModel, state: &OperateState) -> Option<Ghost<'a>> {
     let target = state.ghost.target()?;
     let measured = antenna.snapshot.state.measured.and_then(|measured| measured.direction());
@@ -140,7 +140,7 @@ pub(super) fn shown<'a>(antenna: &'a AntennaModel, state: &OperateState) -> Opti
     })
 }
 
-/// Sentence in the note, and whether the antenna can be sent.
+/// Returns the sentence of the note, and `true` if Azel can send the antenna there.
 fn found(model: &Model, antenna: &AntennaModel, target: Target) -> (String, bool) {
     let in_replay = replay::locked(&antenna.config.name);
     if let Some(lock) = Locks::of(model, antenna, &in_replay).track {
@@ -167,7 +167,8 @@ fn found(model: &Model, antenna: &AntennaModel, target: Target) -> (String, bool
     (spoken, true)
 }
 
-/// Shows the note beside the ghost at `position`; a clicked direction is confirmed in it.
+/// Shows the note beside the ghost at `position`. The operator confirms a clicked direction in the
+/// note.
 pub(super) fn note(
     ui: &mut Ui,
     plot: Rect,
@@ -191,7 +192,7 @@ pub(super) fn note(
     let height = 2.0 * PADDING + title.size().y + GAP + sentence.size().y + buttons;
     let place = beside_point(plot.shrink(8.0), position, vec2(WIDTH, height));
 
-    // Catches what would fall on the sky below.
+    // The note keeps clicks off the sky below.
     let response = ui.interact(place, ui.make_persistent_id("ghost note"), Sense::click());
     let spoken = format!("{head}. {text}");
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &spoken));
@@ -228,7 +229,8 @@ pub(super) fn note(
     }
 }
 
-/// The place of a note of `size` beside `position`: the first of four that has room in `plot`.
+/// Returns the place of a note of `size` beside `position`: the first of four places that has room
+/// in `plot`.
 fn beside_point(plot: Rect, position: Pos2, size: egui::Vec2) -> Rect {
     let outward = vec2(MARGIN, MARGIN);
     let places = [

@@ -1,4 +1,4 @@
-//! The layout of the view in windows of every size.
+//! Layout of the view in windows of every size.
 
 use egui::{Rangef, Rect, pos2, vec2};
 
@@ -7,7 +7,7 @@ use crate::ui::{banner, sky_plot::LEGEND_FOOT, top_bar};
 
 const LIST: f32 = 320.0;
 const NARROW_LIST: f32 = 264.0;
-/// Maximum width of the list; the sky plot always keeps its minimum width.
+/// Max width of the list, points; the sky plot always keeps its min width.
 const MAX_LIST: f32 = 480.0;
 const MIN_SKY: f32 = 480.0;
 const STRIP: f32 = 208.0;
@@ -15,42 +15,42 @@ const SMALL_STRIP: f32 = 80.0;
 const SKY_TIME: f32 = 32.0;
 const SMALL_SKY_TIME: f32 = 28.0;
 const PROFILE: f32 = 392.0;
-/// Maximum size of the sky plot; the strip below gets the rest.
+/// Max size of the sky plot, points; the strip below gets the rest.
 const MAX_SKY: f32 = 2.0 * (420.0 + 36.0);
 
-/// In a window below this width the list is a drawer.
+/// Window width below which the list is a drawer, points.
 const DRAWER_BELOW: f32 = 1200.0;
-/// Minimum width of a window for thumbnails in the rows.
+/// Min window width for thumbnails in the rows, points.
 const THUMBNAILS_FROM: f32 = 1360.0;
-/// In a window below this height there is one short strip.
+/// Window height below which there is one short strip, points.
 const TALL_FROM: f32 = 800.0;
-/// In a window from this height on the strip has room for a lane of each antenna.
+/// Min window height for a strip with a lane for each antenna, points.
 const HIGH_FROM: f32 = 1000.0;
 const HIGH_STRIP: f32 = 272.0;
-/// Number of cards that can stand beside that of the selected antenna.
+/// Max number of cards beside the card of the selected antenna.
 pub(super) const SIDE_CARDS: usize = 2;
-/// In a window from this width on there is the first of them, and the second.
+/// Min window widths for the first and the second card beside the selected antenna's, points.
 const SIDE_CARDS_FROM: [f32; SIDE_CARDS] = [1800.0, 2400.0];
 
-/// How many cards can stand beside that of the selected antenna in a window of this width.
+/// Returns how many cards fit beside the card of the selected antenna in a window of this width.
 pub(in crate::ui) fn side_cards(window: f32) -> usize {
     SIDE_CARDS_FROM.iter().filter(|start| window >= **start).count()
 }
 
-/// The parts of the view.
+/// Parts of the view.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Areas {
     pub(super) header: Rect,
     pub(super) sky: Rect,
-    /// The row below the plot with the time that it shows.
+    /// Row below the plot with the time that the plot shows.
     pub(super) sky_time: Rect,
     pub(super) card: Rect,
-    /// The cards of further antennas, at the right of the first.
+    /// Cards of further antennas, at the right of the first.
     pub(super) side_cards: [Option<Rect>; SIDE_CARDS],
-    /// The strip of the demo station, if it is beside the card.
+    /// Strip of the demo station, if it stands beside the card.
     pub(super) banner: Option<Rect>,
     pub(super) list: Option<Rect>,
-    /// Min and max width of a list beside the plot; none for a drawer.
+    /// Min and max width of a list beside the plot, points; `None` for a drawer.
     pub(super) list_widths: Option<Rangef>,
     pub(super) timeline: Option<Rect>,
     pub(super) profile: Option<Rect>,
@@ -59,7 +59,7 @@ pub(super) struct Areas {
 }
 
 impl Areas {
-    /// `list_width` is the operator's choice, if any.
+    /// Lays out the parts of the view. `list_width` is the operator's choice, points.
     pub(super) fn new(
         window: Rect,
         rect: Rect,
@@ -105,7 +105,7 @@ impl Areas {
         let (sky, sky_time) =
             area.with_min_y(header.bottom()).split_top_bottom_at_y(area.bottom() - sky_time);
         let list = if small {
-            // Never over the card, STOP or the button of the legend.
+            // The drawer must not cover the card, STOP or the button of the legend.
             let drawer = Rect::from_min_size(
                 pos2(sky.left(), sky.top()),
                 vec2(NARROW_LIST + 8.0, sky.height() - LEGEND_FOOT),
@@ -137,7 +137,7 @@ impl Areas {
         }
     }
 
-    /// The lines between the parts, 1 px wide.
+    /// Returns the lines between the parts, 1 point wide.
     pub(super) fn dividers(&self) -> Vec<Rect> {
         let right_of = |rect: Rect| {
             Rect::from_min_max(pos2(rect.right() - 1.0, rect.top()), rect.right_bottom())

@@ -1,4 +1,4 @@
-//! Fills the parts that show passes: list, header and profile.
+//! Content of the parts that show passes: list, header and profile.
 
 use egui::{Rect, Ui};
 use jiff::Timestamp;
@@ -104,7 +104,7 @@ pub(super) fn list(
     commands.extend(pass_list::show(ui, rect, &list, state));
 }
 
-/// A pass as a row of a list, with the verdict for the selected antenna.
+/// Returns a pass as a row of a list, with the verdict for the selected antenna.
 pub(in crate::ui) fn pass_row<'a>(model: &'a Model, predicted: &'a PredictedPass) -> PassRow<'a> {
     let pass = &predicted.pass;
     let antenna = model.antenna();
@@ -128,7 +128,7 @@ pub(in crate::ui) fn pass_row<'a>(model: &'a Model, predicted: &'a PredictedPass
             let antenna = antenna.filter(|antenna| !is_taken(antenna, predicted));
             let way = || Some(Verdict::Way(way_there(model, antenna?, predicted)?));
             match antenna.and_then(|antenna| left_out(model, antenna, predicted)) {
-                // The way there says the same and what it leaves.
+                // The way there gives the same reason, and adds the part of the pass that is left.
                 Some(reason @ (LeftOut::TooFar | LeftOut::UnderWay)) => {
                     way().unwrap_or(Verdict::LeftOut(reason))
                 }
@@ -153,12 +153,12 @@ pub(in crate::ui) fn pass_row<'a>(model: &'a Model, predicted: &'a PredictedPass
     }
 }
 
-/// The antenna tracks the satellite, or is on its way to this pass.
+/// Returns `true` if the antenna tracks the satellite, or is on its way to this pass.
 fn is_taken(antenna: &AntennaModel, predicted: &PredictedPass) -> bool {
     antenna.tracked_number() == Some(predicted.number())
 }
 
-/// Why the schedule leaves a pass out for an antenna that could track it.
+/// Returns the reason why the schedule leaves out a pass that the antenna could track.
 fn left_out<'a>(
     model: &'a Model,
     antenna: &AntennaModel,
@@ -191,8 +191,8 @@ fn left_out<'a>(
     })
 }
 
-/// Part of a pass under way, or about to begin, that is left for an antenna that has to slew.
-/// `None` if no slew shortens the pass, or none can be judged.
+/// Returns the part of a current or imminent pass that is left after the antenna's slew. Returns
+/// `None` if no slew shortens the pass, or Azel cannot judge the slew.
 fn way_there(model: &Model, antenna: &AntennaModel, predicted: &PredictedPass) -> Option<WayThere> {
     let until_s = seconds_between(model.now, predicted.pass.aos.time);
     let config = &antenna.config;
@@ -211,7 +211,7 @@ fn way_there(model: &Model, antenna: &AntennaModel, predicted: &PredictedPass) -
     (!is_in_time).then_some(WayThere { joining })
 }
 
-/// Why an antenna gets nothing of the selected pass, as a sentence.
+/// Returns a sentence with the reason why an antenna gets nothing of the selected pass.
 pub(super) fn nothing_left(model: &Model, antenna: &AntennaModel) -> Option<String> {
     let predicted = model.selected_pass().filter(|other| !is_taken(antenna, other))?;
     let name = predicted.satellite.short_name();
@@ -233,7 +233,7 @@ pub(super) fn selected_key(model: &Model) -> Option<PassListKey> {
     model.selected_pass().map(PredictedPass::key)
 }
 
-/// Shows the header of the selected pass; returns `true` when its drawer button was clicked.
+/// Shows the header of the selected pass; returns `true` after a click on its drawer button.
 pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> bool {
     let Some(predicted) = model.selected_pass() else {
         let empty = PassHeaderModel {
@@ -278,8 +278,8 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
     )
 }
 
-/// Cautions in the second line of the header, and the rest; most important first, because a small
-/// window cuts the end.
+/// Returns the cautions in the second line of the header, and the rest. Each starts with the most
+/// important text, because a small window cuts the end.
 fn second_line(model: &Model, predicted: &PredictedPass) -> [String; 2] {
     let age_s = predicted.satellite.elements.age_s(model.now);
     let number = predicted.satellite.elements.catalog_number();
@@ -319,7 +319,7 @@ fn second_line(model: &Model, predicted: &PredictedPass) -> [String; 2] {
     [warning, rest]
 }
 
-/// The times in which a pass is clear of the horizon mask.
+/// Describes the times in which a pass is clear of the horizon mask.
 fn clear_of_mask(stretches: &[Pass], now: Timestamp) -> String {
     let (Some(first), Some(last)) = (stretches.first(), stretches.last()) else {
         return "never clear of the mask".to_owned();
@@ -331,8 +331,8 @@ fn clear_of_mask(stretches: &[Pass], now: Timestamp) -> String {
     format!("clear of the mask{parts} {start_text} to {end_text}")
 }
 
-/// Shows the profile of the selected pass, with the time that is `marked` elsewhere; returns
-/// the time that the operator marks in it.
+/// Shows the profile of the selected pass, with the time that is `marked` elsewhere. Returns the
+/// time that the operator marks in the profile.
 pub(super) fn profile(
     ui: &mut Ui,
     rect: Rect,
@@ -372,7 +372,7 @@ pub(super) fn profile(
     )
 }
 
-/// The last tracks of the selected antenna.
+/// Returns the last tracks of the selected antenna.
 fn past_tracks(model: &Model) -> Vec<PastModel<'_>> {
     let Some(antenna) = model.antenna() else { return Vec::new() };
     let tracks = antenna.past_tracks.iter().map(|track| PastModel {

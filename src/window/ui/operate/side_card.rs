@@ -1,4 +1,4 @@
-//! The card of one more antenna beside that of the selected one, in a wide window.
+//! Card of one more antenna beside the selected antenna's card, in a wide window.
 
 use super::card::CardState;
 use crate::{
@@ -7,23 +7,23 @@ use crate::{
     station::AntennaId,
 };
 
-/// The antenna of the card, and its state.
+/// Antenna of the card, with the state of the card.
 #[derive(Default)]
 pub(super) struct SideCard {
-    /// The antenna that the operator had selected before, on the first of these cards.
+    /// Previously selected antenna, on the first of these cards.
     before: Option<AntennaId>,
     shown: Option<AntennaId>,
     card: CardState,
 }
 
 impl SideCard {
-    /// Call when another antenna is selected; `before` was selected until now.
+    /// Notes that the operator selected another antenna; `before` was selected until now.
     pub(super) fn turn_to(&mut self, before: Option<AntennaId>) {
         self.before = before;
     }
 
-    /// The antenna of the card: the one that was selected before, else the next of the station that
-    /// no card shows yet.
+    /// Returns the antenna of the card: the previously selected one, else the next of the station
+    /// that no card shows yet.
     pub(super) fn antenna<'a>(
         &mut self,
         model: &'a Model,
@@ -47,7 +47,7 @@ impl SideCard {
         &mut self.card
     }
 
-    /// Releases a key that is held on the card.
+    /// Releases a key that the operator holds on the card.
     pub(super) fn leave(&mut self, commands: &mut Vec<UiCommand>) {
         self.card.hide(self.shown, commands);
     }

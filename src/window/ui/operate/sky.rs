@@ -1,4 +1,4 @@
-//! Fills the sky plot.
+//! Content of the sky plot.
 
 use egui::{Rect, Stroke, StrokeKind, Ui};
 use jiff::Timestamp;
@@ -24,9 +24,9 @@ use crate::{
     },
 };
 
-/// Minimum height of a plot for the full readout.
+/// Min height of a plot for the full readout, points.
 const FULL_READOUT_FROM: f32 = 500.0;
-/// Span of the errors in the beam view.
+/// Time span of the errors in the beam view, seconds.
 const RECENT_S: f64 = 60.0;
 
 /// Shows the plot; returns the time of the path under the pointer.
@@ -40,7 +40,7 @@ pub(super) fn show(
     state.sky_time.keep(model);
     let time = state.sky_time.time();
     if time.is_some() {
-        // A click in the sky of now gives no direction in the sky of another time.
+        // A click in the current sky gives no direction in the sky of another time.
         state.ghost.forget_click();
     }
     ghost::keep(ui, model, state, commands);
@@ -136,7 +136,7 @@ pub(super) fn show(
     answer.pointed
 }
 
-/// Text that a screen reader reads for the whole plot.
+/// Returns the text that a screen reader reads for the whole plot.
 fn description(model: &Model, state: &OperateState) -> String {
     let sentence = model.antenna().map(|antenna| state_sentence(model, antenna).text());
     let sentence = sentence.unwrap_or_else(|| "Sky plot".to_owned());
@@ -146,7 +146,7 @@ fn description(model: &Model, state: &OperateState) -> String {
     }
 }
 
-/// The satellites of `sky` that are not selected.
+/// Returns the satellites of `sky` that are not selected.
 fn others(sky: &Sky, selected: Option<u32>) -> Vec<OtherSatellite<'_>> {
     let satellites = sky.satellites.iter();
     let others = satellites
@@ -161,7 +161,7 @@ fn others(sky: &Sky, selected: Option<u32>) -> Vec<OtherSatellite<'_>> {
     others.collect()
 }
 
-/// The pass of a satellite that is under way at `time`.
+/// Returns the pass of a satellite that is under way at `time`.
 fn pass_at(model: &Model, number: u32, time: Timestamp) -> Option<PassListKey> {
     let ahead = model.pass_lists.favourites.upcoming(model.now);
     let mut own = ahead.iter().filter(|predicted| predicted.number() == number);
@@ -169,7 +169,7 @@ fn pass_at(model: &Model, number: u32, time: Timestamp) -> Option<PassListKey> {
         .map(PredictedPass::key)
 }
 
-/// The path of a pass, with the present look angles of its satellite.
+/// Returns the path of a pass, with the current look angles of its satellite.
 pub(in crate::ui) fn track(predicted: &PredictedPass, look: Option<LookAngles>) -> Track<'_> {
     let sample = |point: &PassPoint| Sample { time: point.time, direction: point.direction };
     Track {
@@ -187,7 +187,7 @@ pub(in crate::ui) fn track(predicted: &PredictedPass, look: Option<LookAngles>) 
     }
 }
 
-/// The readout; a low plot has room for the direction only.
+/// Returns the readout; a low plot has room for the direction only.
 fn readout(model: &Model, selected: Option<Selected>, full: bool) -> Vec<(&'static str, String)> {
     let Some(selected) = selected else { return Vec::new() };
     let look = selected.look;
@@ -212,18 +212,18 @@ fn readout(model: &Model, selected: Option<Selected>, full: bool) -> Vec<(&'stat
     direction.into_iter().chain(further).collect()
 }
 
-/// The commanded direction: from the operator or from program track.
+/// Returns the direction commanded by the operator or by the program track.
 pub(in crate::ui) fn commanded(antenna: &AntennaModel) -> Option<AzEl> {
     let snapshot = &antenna.snapshot;
     let follows = snapshot.program_track.as_ref().filter(|_| antenna.follows());
     snapshot.aim.or_else(|| follows?.commanded)?.direction()
 }
 
-/// Time since the last report of an antenna whose unit does not answer.
+/// Returns the time since the last report of an antenna whose unit does not answer.
 pub(in crate::ui) fn lost_for(model: &Model, antenna: &AntennaModel) -> Option<String> {
     let age = match antenna.answers(model.steady) {
         Answers::Silent(age) | Answers::Lost(age) => age,
-        // The antenna is left to others, who may have turned it since.
+        // Azel is not connected, so others may have turned the antenna since.
         Answers::Off => {
             let received = antenna.snapshot.state.measured?.received;
             model.steady.saturating_duration_since(received)
@@ -233,7 +233,7 @@ pub(in crate::ui) fn lost_for(model: &Model, antenna: &AntennaModel) -> Option<S
     Some(format::age(age.as_secs_f64()))
 }
 
-/// The keep-outs that hold for the antenna.
+/// Returns the keep-outs that apply to the antenna.
 fn keep_outs<'a>(model: &'a Model, antenna: &AntennaModel) -> Vec<KeepOutMark<'a>> {
     let config = &antenna.config;
     let hold = model.station.keep_outs.iter().filter(|keep_out| keep_out.holds_for(&config.name));
@@ -245,7 +245,8 @@ fn keep_outs<'a>(model: &'a Model, antenna: &AntennaModel) -> Vec<KeepOutMark<'a
     .collect()
 }
 
-/// The bearing of an antenna with known azimuth and unknown elevation, or at a limit of its azimuth.
+/// Returns the bearing of an antenna with known azimuth and unknown elevation, or at a limit of its
+/// azimuth.
 pub(super) fn bearing<'a>(antenna: &'a AntennaModel, lost: Option<&'a str>) -> Option<Bearing<'a>> {
     let measured = antenna.snapshot.state.measured?;
     let pointing = measured.pointing;
@@ -275,7 +276,8 @@ pub(super) fn bearing<'a>(antenna: &'a AntennaModel, lost: Option<&'a str>) -> O
     })
 }
 
-/// Errors across and upwards, degrees; across is measured on the sky, not on the horizon.
+/// Returns the errors across and upwards on the sky, degrees. The azimuth error is scaled by the
+/// cosine of the elevation.
 fn recent_errors(antenna: &AntennaModel) -> Vec<(f32, f32)> {
     let Some(newest) = antenna.errors.back() else { return Vec::new() };
     let elevation =

@@ -1,5 +1,5 @@
-//! The time that the sky plot shows: now, or a moment of the plan that the operator looks at. It
-//! changes the picture alone; no command follows from it.
+//! Time that the sky plot shows: now, or a planned moment that the operator looks at. It changes
+//! only the picture; no command follows from it.
 
 pub(super) mod row;
 
@@ -12,19 +12,19 @@ use crate::{
     ui::{format, sky_plot::PlannedAntenna, words},
 };
 
-/// The time of the sky plot, from the operator's choice on until it is over.
+/// Time of the sky plot, from the operator's choice until that time is over.
 #[derive(Debug, Default)]
 pub struct SkyTime {
-    /// `None` for now.
+    /// Time shown; `None` for now.
     time: Option<Timestamp>,
     sky: Option<(SkyKey, Sky)>,
-    /// The slider had the keyboard focus in the last frame.
+    /// Flag: the slider had the keyboard focus in the last frame.
     pub has_focus: bool,
-    /// The operator clicked in the sky of another time.
+    /// Flag: the operator clicked in the sky of another time.
     is_click_refused: bool,
 }
 
-/// Inputs that a sky was computed from.
+/// Inputs from which a sky was computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct SkyKey {
     time: Timestamp,
@@ -34,7 +34,7 @@ struct SkyKey {
 }
 
 impl SkyTime {
-    /// The time shown, if it is not now.
+    /// Returns the time shown; `None` for now.
     pub fn time(&self) -> Option<Timestamp> {
         self.time
     }
@@ -43,7 +43,7 @@ impl SkyTime {
         (self.time, self.sky, self.is_click_refused) = (None, None, false);
     }
 
-    /// Shows another time, at most the end of the schedule. A time that is over is now.
+    /// Shows another time, at most the end of the schedule. A past time shows now.
     pub fn show_at(&mut self, model: &Model, time: Timestamp) {
         self.is_click_refused = false;
         match model.schedule_until() {
@@ -52,18 +52,18 @@ impl SkyTime {
         }
     }
 
-    /// Shows a time so many seconds later, or earlier.
+    /// Shows a time `by_s` seconds later, or earlier if negative.
     pub fn step(&mut self, model: &Model, by_s: f64) {
         self.show_at(model, add_seconds(self.time.unwrap_or(model.now), by_s));
     }
 
-    /// A click in the sky of another time points no antenna, and says so.
+    /// Refuses a click in the sky of another time: the click points no antenna, and a note says so.
     pub(super) fn refuse_click(&mut self) {
         self.is_click_refused = true;
     }
 
-    /// Returns to now from a time that is over, or that the schedule does not hold any more, and
-    /// computes the sky of the time shown.
+    /// Computes the sky of the time shown. Returns to now once that time is over or the schedule no
+    /// longer holds it.
     pub(super) fn keep(&mut self, model: &Model) {
         let Some(time) = self.time else { return };
         let Some(end) = model.schedule_until().filter(|_| time > model.now) else {
@@ -82,13 +82,13 @@ impl SkyTime {
         }
     }
 
-    /// The sky of the time shown, if that is not now.
+    /// Returns the sky of the time shown; `None` for now.
     pub(super) fn sky(&self) -> Option<&Sky> {
         let (_, sky) = self.sky.as_ref().filter(|_| self.time.is_some())?;
         Some(sky)
     }
 
-    /// Which time it is, in words.
+    /// Describes the time shown; `None` for now.
     pub(super) fn words(&self, model: &Model) -> Option<String> {
         let time = self.time?;
         let moment = format::moment(time, model.now);
@@ -96,7 +96,7 @@ impl SkyTime {
     }
 }
 
-/// Positions of the antennas in the schedule at `time`.
+/// Returns the positions of the antennas in the schedule at `time`.
 pub(super) fn planned_antennas(model: &Model, time: Timestamp) -> Vec<PlannedAntenna<'_>> {
     let antennas = model.antennas.iter().enumerate();
     let planned = antennas.filter_map(|(index, antenna)| {

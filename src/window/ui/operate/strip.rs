@@ -1,4 +1,4 @@
-//! Fills the strip with the passes of each antenna, as the schedule has them once there is one.
+//! Content of the strip: the passes of each antenna, from the schedule once there is one.
 
 use egui::{Rect, Ui};
 use jiff::Timestamp;
@@ -19,11 +19,11 @@ use crate::{
     },
 };
 
-/// Maximum number of outlines that are worked out in one frame, some milliseconds of work. With many
-/// favourites the schedule is there before all of them are, and the strip then needs none.
+/// Max number of outlines computed in one frame, some milliseconds of work. With many favourites
+/// the schedule is ready before all outlines, and the strip then needs none.
 const NEW_OUTLINES: usize = 48;
 
-/// A strip of this width shows a whole day.
+/// Min width of a strip that shows a whole day, points.
 const LONG_FROM: f32 = 1000.0;
 
 pub(super) fn show(
@@ -75,8 +75,8 @@ pub(super) fn show(
     timeline::show(ui, rect, &strip, commands);
 }
 
-/// The passes to come with what the mount can do of them. Until that is worked out, a pass is shown
-/// as one that can be tracked.
+/// Returns the upcoming passes, with the mount's ability to track each. A pass counts as trackable
+/// until Azel has computed its outline.
 fn bars_of_mount(model: &Model, antenna: usize, end: Timestamp) -> Vec<Bar<'_>> {
     let mut left = NEW_OUTLINES;
     let ahead = model.pass_lists.favourites.upcoming(model.now);
@@ -91,7 +91,7 @@ fn bars_of_mount(model: &Model, antenna: usize, end: Timestamp) -> Vec<Bar<'_>> 
     bars.collect()
 }
 
-/// The passes that have just ended for an antenna, and those to come.
+/// Returns the passes that have just ended for an antenna, and the upcoming ones.
 fn bars_of_plan<'a>(
     model: &'a Model,
     antenna: &AntennaModel,
@@ -124,7 +124,7 @@ fn bar<'a>(predicted: &'a PredictedPass, state: State<'a>, loses: bool) -> Bar<'
     }
 }
 
-/// A pass that has set; `predicted` as long as the list still has it.
+/// Returns the bar of a pass that has set. `predicted` is the pass, while the list still has it.
 fn flown_bar<'a>(flown: &'a Flown, predicted: Option<&PredictedPass>) -> Bar<'a> {
     let los = predicted.map(|pass| pass.pass.los.time);
     let max = predicted.map(|pass| pass.pass.max_elevation().degrees());

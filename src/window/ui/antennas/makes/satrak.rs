@@ -56,7 +56,6 @@ static SECTIONS: [Section; 7] = [
         keys: &[FILE.key, WEB.key, FTP.key],
         is_service: false,
         column: Some(Column::Right),
-        // The upload of elements to the unit has its place below this card.
         content: |ui, unit, form, _, effects| satellite::show(ui, unit, form, effects),
     },
     Section {

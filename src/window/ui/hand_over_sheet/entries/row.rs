@@ -9,17 +9,17 @@ use crate::{
     ui::{format, hand_over_sheet::HandOverSheet},
 };
 
-/// Spare time below this is shown as short, seconds.
+/// Spare time below which the sheet marks it as short, seconds.
 const SHORT_S: f64 = 60.0;
-/// Seconds below this are not worth a word.
+/// Duration below which the sheet does not mention it, seconds.
 const MIN_S: f64 = 1.0;
 
 pub(super) struct Row {
-    /// The day of UTC.
+    /// UTC day of the row.
     pub(super) day: String,
     pub(super) sets_out: Timestamp,
     pub(super) aos: String,
-    /// The greatest elevation and its azimuth.
+    /// Max elevation and its azimuth.
     pub(super) max: String,
     pub(super) los: String,
     pub(super) name: String,
@@ -29,7 +29,7 @@ pub(super) struct Row {
     pub(super) shortened: String,
     pub(super) spare: String,
     pub(super) is_spare_short: bool,
-    /// Its track over the sky, and the part that the antenna takes.
+    /// Track of the pass over the sky, and the part that the antenna takes.
     pub(super) whole: Vec<AzEl>,
     pub(super) part: Vec<AzEl>,
 }
@@ -74,7 +74,7 @@ impl Row {
     }
 }
 
-/// Parts that the antenna misses of a pass, and the antenna that takes the rest.
+/// Describes the parts of a pass that the antenna misses, and the antenna that takes the rest.
 fn shortened(sheet: &HandOverSheet<'_>, entry: &Entry) -> String {
     let share = |seconds: f64, word: &str| {
         (seconds >= MIN_S).then(|| format!("{word} {}", format::duration(seconds)))

@@ -1,8 +1,8 @@
-//! The shapes of the icons of the Elements view.
+//! Shapes of the icons of the Elements view.
 
 use super::{Icon, Pen};
 
-/// Draws an icon; nothing for one of another view.
+/// Draws an icon of the Elements view; draws nothing for other icons.
 pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {
     match icon {
         Icon::Star => {
@@ -67,7 +67,7 @@ pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {
     }
 }
 
-/// Tips and notches of a star, from the upper tip on.
+/// Returns the tips and notches of a star, starting at the upper tip.
 fn star() -> [(f32, f32); 10] {
     std::array::from_fn(|corner| {
         let radius = if corner % 2 == 0 { 8.2 } else { 3.5 };

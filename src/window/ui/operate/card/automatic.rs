@@ -1,5 +1,5 @@
-//! Automatic operation on the card: its tag, what it does next and when, and the button that lets it
-//! go on while it is suspended.
+//! Automatic operation on the card: its tag, its next action with the time, and the button that
+//! resumes it after a suspension.
 
 use egui::{Rect, Role, Ui, WidgetInfo, pos2, text::LayoutJob, vec2};
 
@@ -18,9 +18,9 @@ use crate::{
     },
 };
 
-/// Space between the tag and the words.
+/// Space between the tag and the words, points.
 const GAP: f32 = 8.0;
-/// Rows that the words of a countdown have, so that nothing below moves when they change.
+/// Number of rows reserved for a countdown, to keep everything below in place.
 const ROWS: usize = 2;
 
 pub(super) fn show(
@@ -41,7 +41,7 @@ pub(super) fn show(
         job.wrap.max_rows = rows;
         ui.painter().layout_job(job)
     };
-    // The reason of a suspension is shown whole.
+    // Show the reason for a suspension in full.
     let words = layout(&said, if is_suspended { usize::MAX } else { ROWS });
     let is_cut = words.elided;
     let room = if is_suspended { words.size().y } else { layout("\n", ROWS).size().y };

@@ -1,4 +1,4 @@
-//! The axes of an antenna as the card shows them.
+//! Axes of an antenna on the card.
 
 use egui::Ui;
 
@@ -18,12 +18,12 @@ use crate::{
     },
 };
 
-/// Direction in which the antenna is to point.
+/// Returns the direction in which the antenna is to point.
 fn demanded(antenna: &AntennaModel) -> Option<Pointing> {
     antenna.snapshot.aim.or(antenna.prediction.map(|prediction| prediction.direction.into()))
 }
 
-/// Source of that direction.
+/// Returns the source of the demanded direction.
 fn wanted_column(antenna: &AntennaModel) -> WantedColumn {
     if antenna.snapshot.aim.is_none() && antenna.prediction.is_some() {
         WantedColumn::Predicted
@@ -32,13 +32,13 @@ fn wanted_column(antenna: &AntennaModel) -> WantedColumn {
     }
 }
 
-/// Azimuth and elevation, degrees.
+/// Returns azimuth and elevation, degrees.
 fn in_degrees(pointing: Option<Pointing>) -> [Option<f64>; 2] {
     let azimuth = pointing.and_then(|at| at.azimuth).map(Angle::wrapped_360);
     [azimuth, pointing.and_then(|at| at.elevation)].map(|angle| angle.map(Angle::degrees))
 }
 
-/// The direction in which the antenna is to point, degrees, and the decimals to show it with.
+/// Returns the direction in which the antenna is to point, degrees, and the decimals to show.
 pub(super) fn commanded(model: &Model, antenna: &AntennaModel) -> ([Option<f64>; 2], usize) {
     let predicted = model.appearance.angle_decimals as usize;
     let of_unit = format::decimals(antenna.variant().capabilities, predicted);
@@ -88,7 +88,7 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, model: &Model, antenna: &AntennaMod
     axes_table::show(ui, at.take(axes_table::height(axes.len())), &table);
 }
 
-/// The pair of axes that the jog keys turn.
+/// Returns the pair of axes that the jog keys turn.
 pub(super) fn keys(antenna: &AntennaModel) -> JogKeys {
     let can = antenna.variant().capabilities;
     match (antenna.config.mount, can.second_axis) {
@@ -102,7 +102,7 @@ pub(super) fn keys(antenna: &AntennaModel) -> JogKeys {
     }
 }
 
-/// The keys of an X/Y mount. From the zenith, X tilts across the lower axis and Y along it.
+/// Returns the keys of an X/Y mount. From the zenith, X tilts across the lower axis and Y along it.
 fn xy_keys(lower_axis_azimuth_deg: f64) -> JogKeys {
     let side = |from_axis_deg| format::side_of_sky(lower_axis_azimuth_deg + from_axis_deg);
     JogKeys::Xy {
@@ -113,7 +113,8 @@ fn xy_keys(lower_axis_azimuth_deg: f64) -> JogKeys {
     }
 }
 
-/// Directions in which a limit switch is set, or whose axis has no known angle or is absent.
+/// Returns the blocked directions: a limit switch is set, or the axis is absent or has no known
+/// angle.
 pub(super) fn blocked(antenna: &AntennaModel) -> Vec<JogDirection> {
     let can = antenna.variant().capabilities;
     let Some(measured) = antenna.snapshot.state.measured else { return Vec::new() };
@@ -132,7 +133,7 @@ pub(super) fn blocked(antenna: &AntennaModel) -> Vec<JogDirection> {
     .collect()
 }
 
-/// A sentence about the axes that are not jogged because their angle is unknown.
+/// Returns a sentence about the axes that the operator cannot jog because their angle is unknown.
 pub(super) fn unseen(antenna: &AntennaModel) -> Option<String> {
     let can = antenna.variant().capabilities;
     let measured = antenna.snapshot.state.measured.filter(|_| !can.ends_jogs)?;
@@ -149,7 +150,7 @@ pub(super) fn unseen(antenna: &AntennaModel) -> Option<String> {
     Some(format!("The {axis} has no known angle and cannot be turned by hand."))
 }
 
-/// The signed rate of the jogged axis, degrees per second: measured for named speeds,
+/// Returns the signed rate of the jogged axis, degrees per second: measured for named speeds,
 /// otherwise as commanded.
 pub(super) fn rate_of_jog(antenna: &AntennaModel) -> Option<f64> {
     let can = antenna.variant().capabilities;

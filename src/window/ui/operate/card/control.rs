@@ -1,5 +1,5 @@
-//! Programs on the network: the one in control of the antenna, one that asks for control, and the
-//! buttons that hand control over and take it back.
+//! Programs on the network: the program in control of the antenna, a program that asks for control,
+//! and the buttons that hand control over and take it back.
 
 use egui::{Rect, Ui};
 
@@ -21,10 +21,11 @@ use crate::{
     },
 };
 
-/// Space between two buttons.
+/// Space between two buttons, points.
 const GAP: f32 = 8.0;
 
-/// Shows who is in control as soon as a program is connected, and a port that cannot be opened.
+/// Shows the party in control once a program is connected, and the error of a port that cannot be
+/// opened.
 pub(super) fn show(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>) {
     let control = &card.antenna.control;
     let t = theme::tokens(ui);
@@ -52,7 +53,7 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>) {
     } else {
         let words = words::connected(&control.clients, control.party);
         remark(ui, at, "connected programs", Icon::Prompt, t.t2, &words);
-        // Automatic operation is switched off on its own switch.
+        // Automatic operation has a separate switch and needs no button here.
         if matches!(control.party, Some(Party::Window | Party::Command)) {
             release(ui, at, card);
         }
@@ -60,7 +61,7 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>) {
     at.skip(6.0);
 }
 
-/// The program that has waited longest for the operator's decision.
+/// Returns the program that has waited longest for the operator's decision.
 fn asking(control: &Control) -> Option<&NetworkClient> {
     let asking = control.clients.iter().filter(|client| client.asks_since.is_some());
     asking.min_by_key(|client| client.asks_since)
@@ -90,7 +91,7 @@ fn release(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>) {
 fn hand_over(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>, client: &NetworkClient) {
     let AntennaModel { control, .. } = card.antenna;
     let buttons = [("Hand over", "hand over"), ("Always allow", "always allow")];
-    // A port that another setting has opened in the meantime keeps no list.
+    // Without a port of its own, the antenna keeps no list of allowed programs.
     let has_port = !matches!(control.port, PortState::Closed);
     let buttons = if has_port { &buttons[..] } else { &buttons[..1] };
     let clicked = row(ui, at, card.model.replay.is_some(), buttons);
@@ -102,7 +103,7 @@ fn hand_over(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>, client: &NetworkClie
     }));
 }
 
-/// Shows buttons side by side; returns the index of the one that was pressed.
+/// Shows buttons side by side; returns the index of the pressed button.
 fn row(ui: &Ui, at: &mut Cursor, is_locked: bool, buttons: &[(&str, &str)]) -> Option<usize> {
     at.skip(4.0);
     let row = at.take(button::SMALL_HEIGHT);

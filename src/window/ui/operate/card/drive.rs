@@ -22,19 +22,19 @@ use crate::{
     },
 };
 
-/// Initial jog rate.
+/// Initial jog rate, degrees per second.
 const FIRST_RATE_DEG_S: f64 = 0.5;
-/// Gap below the row of steps.
+/// Gap below the row of steps, points.
 const STEPS_GAP: f32 = 4.0;
-/// Height of a sentence of one line.
+/// Height of a sentence of one line, points.
 const MESSAGE: f32 = 17.0;
 
 /// Held keys and input.
 #[derive(Debug, Clone)]
 pub struct DriveState {
-    /// Demanded jog rate.
+    /// Demanded jog rate, degrees per second.
     pub rate_deg_s: f64,
-    /// The go-to fields.
+    /// State of the go-to fields.
     pub go_to: GoToState,
     steps: StepState,
     jog: JogState,
@@ -42,17 +42,17 @@ pub struct DriveState {
 }
 
 impl DriveState {
-    /// Selects the next rate up (`by` positive) or down.
+    /// Changes the rate by `by` steps: up if positive, down if negative.
     pub fn change_rate(&mut self, by: i32, speeds: JogSpeeds, max_deg_s: f64) {
         self.rate_deg_s = speed::stepped(self.rate_deg_s, by, speeds, max_deg_s);
     }
 
-    /// Gives the jog pad the keyboard focus as soon as it is free.
+    /// Gives the jog pad the keyboard focus as soon as the focus is free.
     pub fn focus_pad(&mut self) {
         self.jog.focus();
     }
 
-    /// Releases the jog key. Returns `true` if one was held.
+    /// Releases the jog key. Returns `true` if the operator held a key.
     pub(super) fn let_go(&mut self) -> bool {
         self.jog = JogState::default();
         std::mem::take(&mut self.jogging)
@@ -121,12 +121,12 @@ pub(super) fn show(ui: &mut Ui, at: &mut Cursor, card: &mut Card<'_>, state: &mu
     }
 }
 
-/// Returns `true` while the axes can be turned by steps.
+/// Returns `true` while the operator can turn the axes by steps.
 fn has_steps(card: &Card<'_>) -> bool {
     card.antenna.variant().capabilities.steps && card.locks.jog.is_none()
 }
 
-/// The accepted azimuths, degrees: all of the sky, and those beyond that are in the travel
+/// Returns the accepted azimuths, degrees: the whole sky, and azimuths beyond it within the travel
 /// of the axis.
 fn azimuth_range_deg(mount: Mount) -> (f64, f64) {
     match mount {
@@ -137,7 +137,7 @@ fn azimuth_range_deg(mount: Mount) -> (f64, f64) {
     }
 }
 
-/// The accepted elevations, degrees.
+/// Returns the accepted elevations, degrees.
 fn elevation_range_deg(antenna: &AntennaModel) -> (f64, f64) {
     let lowest = antenna.config.limits.minimum_elevation_deg;
     match antenna.config.mount {
@@ -170,10 +170,10 @@ fn jog(ui: &Ui, pad: Rect, card: &mut Card<'_>, state: &mut DriveState) {
     state.jogging = held.is_some();
 }
 
-/// Shows the reasons of refusals below the controls that they are about.
+/// Shows the reasons of refusals below the controls they concern.
 pub(super) fn messages(ui: &Ui, at: &mut Cursor, card: &Card<'_>, state: &DriveState) {
     let t = theme::tokens(ui);
-    // Reserved, so that little moves when a sentence appears.
+    // Reserve a line, to keep most of the layout when a sentence appears.
     let end = at.y + MESSAGE;
     let refusal = state.go_to.refusal();
     let step = has_steps(card).then(|| state.steps.size_deg(card.antenna).err()).flatten();

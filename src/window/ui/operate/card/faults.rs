@@ -50,12 +50,12 @@ fn colour(state: CheckState, t: &Tokens) -> Color32 {
     }
 }
 
-/// All checks of a unit that has some.
+/// Checks of a unit that reports some.
 pub(super) struct Faults<'a> {
-    /// The unit answers, so that its last report is true now.
+    /// Flag: the unit answers, so its last report is current.
     is_known: bool,
     checks: &'a [Check],
-    /// Time of the unit's last report, formatted; empty before the first.
+    /// Time of the unit's last report, as text; empty before the first report.
     checked_at: String,
 }
 
@@ -77,12 +77,13 @@ impl Faults<'_> {
         self.checks.iter().filter(|check| check.state == state).count()
     }
 
-    /// The worst result, unknown while the unit does not answer.
+    /// Returns the worst result; unknown while the unit does not answer.
     fn worst(&self) -> CheckState {
         if self.is_known { self.worst_reported() } else { CheckState::Unknown }
     }
 
-    /// The worst result of the last report. A fault weighs most; unknown weighs more than good.
+    /// Returns the worst result of the last report. A fault weighs most; unknown weighs more than
+    /// good.
     fn worst_reported(&self) -> CheckState {
         [CheckState::Fault, CheckState::Caution, CheckState::Unknown]
             .into_iter()
@@ -90,7 +91,7 @@ impl Faults<'_> {
             .unwrap_or(CheckState::Good)
     }
 
-    /// The result in a few words, and the sentence below it.
+    /// Returns the result in a few words, and the sentence below it.
     fn summary(&self) -> (String, String) {
         if self.is_known || self.checked_at.is_empty() {
             return self.reported();
@@ -100,7 +101,7 @@ impl Faults<'_> {
         ("Not known".into(), last)
     }
 
-    /// The same for the last report, as if it were true now.
+    /// Returns the summary of the last report, as if the report were current.
     fn reported(&self) -> (String, String) {
         let (all, worst) = (self.checks.len(), self.worst_reported());
         let named = || {
@@ -129,7 +130,7 @@ impl Faults<'_> {
         }
     }
 
-    /// The result for the folded line.
+    /// Returns the result for the folded line.
     pub(super) fn in_words(&self, ui: &Ui) -> (String, (Icon, Color32)) {
         let worst = self.worst();
         let (good, all) = (self.count(CheckState::Good), self.checks.len());
@@ -144,7 +145,7 @@ impl Faults<'_> {
         (words, (icon(worst), colour(worst, theme::tokens(ui))))
     }
 
-    /// Shows the line with its button.
+    /// Shows the line of the checks with its button.
     pub(super) fn show(&self, ui: &Ui, at: &mut Cursor) {
         let t = theme::tokens(ui);
         let row = at.take(47.0);

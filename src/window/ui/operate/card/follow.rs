@@ -17,7 +17,7 @@ use crate::{
     },
 };
 
-/// Width of the button.
+/// Width of the button, points.
 pub(super) const WIDTH: f32 = 28.0;
 
 /// Target of a program track.
@@ -31,8 +31,8 @@ enum FollowChoice {
     Direction(Target),
 }
 
-/// Shows the button in `rect`. `typed` is the direction in the go-to fields; `asks_sun`
-/// becomes `true` when the Sun was chosen and takes a hold.
+/// Shows the button in `rect`. `typed` is the direction in the go-to fields. Sets `asks_sun` when
+/// the operator chose the Sun, which takes a hold.
 pub(super) fn show(
     ui: &Ui,
     rect: Rect,
@@ -65,7 +65,7 @@ pub(super) fn show(
                 (format!("{words} {}", in_words(target, decimals)), FollowChoice::Direction(target))
             }));
         }
-        // Track would use the unit's own program.
+        // Offer the satellite as well: Track would use the unit's own program.
         if let Some(predicted) = card.model.selected_pass().filter(|_| can.has_program) {
             let satellite = predicted.satellite.short_name();
             let words = format!("Follow {satellite} position by position, from here");
@@ -110,7 +110,7 @@ fn program_track(card: &Card<'_>, target: plan::Target) -> Box<ProgramTrack> {
     Box::new(ProgramTrack::new(target, card.model.station.site, Vec::new()))
 }
 
-/// A direction, as a go-to target.
+/// Converts a direction to a go-to target.
 fn target(pointing: Pointing) -> Option<Target> {
     Some(Target {
         azimuth_deg: pointing.azimuth?.wrapped_360().degrees(),
@@ -118,7 +118,7 @@ fn target(pointing: Pointing) -> Option<Target> {
     })
 }
 
-/// A target in the format of the fields: azimuth, and elevation if there is one.
+/// Formats a target like the fields: azimuth, and elevation if there is one.
 fn in_words(target: Target, decimals: usize) -> String {
     let angles = [Some(target.azimuth_deg), target.elevation_deg];
     let known = angles.into_iter().flatten().map(|angle_deg| format::degrees(angle_deg, decimals));

@@ -23,7 +23,7 @@ use crate::{
     },
 };
 
-/// Side of the button that opens the link menu.
+/// Side length of the button that opens the link menu, points.
 const MENU: f32 = 24.0;
 
 /// Returns `true` if this console has no link to the unit and wants none.
@@ -55,7 +55,7 @@ pub(super) fn show(
         end = row.with_max_x(key.left() - 2.0);
     }
     let room = end.with_min_x(row.left() + 24.0);
-    // The second line has the width for itself.
+    // Put the tags on the upper line: the second line keeps the whole width.
     let upper = if short { end } else { end.translate(vec2(0.0, -8.0)) };
     let (status, colour) = status(model, antenna, t);
     let tag = tag_at_right(ui, upper, status, colour);
@@ -92,7 +92,7 @@ pub(super) fn show(
     }
 }
 
-/// Kind and name of the unit, or its address.
+/// Returns the kind and name of the unit, or its address.
 fn second_line(antenna: &AntennaModel) -> String {
     let kind = match antenna.config.mount {
         Mount::AzEl { .. } => antenna.spec().name,
@@ -133,7 +133,7 @@ fn link_menu(
     });
 }
 
-/// Disconnects, after a question if something would go on unwatched.
+/// Disconnects. Asks first if a motion or a track would go on unwatched.
 fn disconnect(card: &mut Card<'_>) {
     let snapshot = &card.antenna.snapshot;
     let moving = snapshot.state.measured.is_some_and(|measured| measured.moving());
@@ -149,7 +149,7 @@ fn disconnect(card: &mut Card<'_>) {
     *card.question = Some(Question { text, yes: "Disconnect", command });
 }
 
-/// The status of the link in words, with their colour.
+/// Returns the status of the link in words, with its colour.
 fn status(model: &Model, antenna: &AntennaModel, t: &Tokens) -> (&'static str, Color32) {
     match antenna.answers(model.steady) {
         _ if antenna.held_by.is_some() => ("Driven elsewhere", t.warn),

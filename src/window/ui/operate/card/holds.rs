@@ -1,6 +1,6 @@
-//! Buttons that the operator holds to take responsibility: the antenna stands still, it may move
-//! without a dead-man, an action may go where Azel cannot know, or the antenna may leave a zone into
-//! which it must not point.
+//! Hold buttons by which the operator takes responsibility: for an antenna at rest, for a motion
+//! without a dead-man, for an action into an unknown direction, or for the way out of a forbidden
+//! zone.
 
 use egui::Ui;
 
@@ -22,11 +22,10 @@ use crate::{
     },
 };
 
-/// Confirms that the antenna stands still.
+/// Label of the button that confirms that the antenna stands still.
 const SEEN_STANDING: &str = "Hold 1 s: I have seen it at rest";
 
-/// Shows the note on the open question about the track, and the hold buttons that the operator is
-/// asked to press.
+/// Shows the note on the open question about the track, and the hold buttons for the operator.
 pub(super) fn show(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>, state: &mut CardState) {
     let (model, antenna) = (card.model, card.antenna);
     let snapshot = &antenna.snapshot;
@@ -53,8 +52,8 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>, state: &mut Ca
     }
 }
 
-/// For an antenna that points, or may point, where it must not: the allowed motions, and the button
-/// that allows them, until the operator has.
+/// Shows the allowed motions of an antenna that points, or may point, into a forbidden direction.
+/// Offers the button that allows them until the operator has pressed it.
 fn way_out(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>, state: &mut HoldState) {
     let AntennaModel { config, snapshot, .. } = card.antenna;
     let can_be_asked =

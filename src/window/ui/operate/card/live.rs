@@ -1,4 +1,4 @@
-//! In a replay: where the live antennas are, in place of the controls for moving by hand.
+//! Live antennas in a replay, in place of the controls for moving by hand.
 
 use egui::{Align2, Rect, StrokeKind, Ui, pos2, vec2};
 
@@ -15,12 +15,12 @@ use crate::{
     },
 };
 
-/// Height of a line.
+/// Height of a line, points.
 const ROW: f32 = 22.0;
 const TAG: f32 = 44.0;
-/// Room below, before the lock of the controls.
+/// Room below, before the lock of the controls, points.
 const GAP: f32 = 6.0;
-/// Most antennas that are listed; the bar at the top has them all.
+/// Max number of listed antennas; the bar at the top shows all.
 const MOST: usize = 4;
 
 pub(super) fn show(ui: &Ui, at: &mut Cursor, live: &Model) {
@@ -53,7 +53,7 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, live: &Model) {
     at.skip(GAP);
 }
 
-/// Activity and position of an antenna, with the age of both.
+/// Returns the activity and position of an antenna, with their age.
 fn does(live: &Model, antenna: &AntennaModel) -> String {
     let can = antenna.variant().capabilities;
     let measured = antenna.snapshot.state.measured;
@@ -62,7 +62,7 @@ fn does(live: &Model, antenna: &AntennaModel) -> String {
     link_chip::with_age(&activity, &bar::age(live, antenna), bar::glyph(live, antenna))
 }
 
-/// The next pass that an antenna is to track.
+/// Describes the next planned pass of any antenna.
 fn next(live: &Model) -> String {
     let entries = live.schedule.schedule.entries.iter();
     let next = entries.filter(|entry| entry.start > live.now).min_by_key(|entry| entry.start);
@@ -72,7 +72,7 @@ fn next(live: &Model) -> String {
     format!("{name} at {at}, in {}", format::time_left(live.now, next.start))
 }
 
-/// Says when a replay ends by itself.
+/// Describes when a replay ends automatically.
 fn ends() -> String {
     let minutes = ENDS_BEFORE_PASS_S / 60.0;
     format!(

@@ -1,4 +1,4 @@
-//! The reasons why controls of the card are locked.
+//! Reasons why controls of the card are locked.
 
 use crate::{
     contract::{
@@ -10,28 +10,29 @@ use crate::{
     ui::state_sentence::missing_angle,
 };
 
-/// The lock of all controls for moving by hand while a target is tracked.
+/// Lock of all controls for moving by hand while the antenna tracks a target.
 const TRACKING: &str = "Locked while tracking. Choose Manual or Position.";
 const LATE: &str = "Locked: the unit answers late.";
 const SILENT: &str = "Locked: the unit does not answer.";
 const STANDBY: &str = "Locked in Standby. Choose Manual or Position.";
 
-/// The reasons why controls are locked, each in a sentence.
+/// Reasons why controls are locked, each as a sentence.
 #[derive(Default)]
 pub(in crate::ui::operate) struct Locks<'a> {
-    /// For all controls.
+    /// Reason for all controls.
     pub(in crate::ui::operate) link: Option<&'a str>,
     pub(in crate::ui::operate) jog: Option<&'a str>,
     pub(in crate::ui::operate) go_to: Option<&'a str>,
     pub(in crate::ui::operate) track: Option<&'a str>,
-    /// For actions of the make that move metal.
+    /// Reason for actions of the make that move the antenna.
     pub(in crate::ui::operate) action: Option<&'a str>,
-    /// A track is all that locks moving by hand, besides late replies.
+    /// Flag: only a track, besides late replies, locks moving by hand.
     pub(in crate::ui::operate) is_tracking: bool,
 }
 
 impl<'a> Locks<'a> {
-    /// `in_replay`: the reason in a replay, in which nothing can be asked of a unit.
+    /// Returns the locks of an antenna's controls. `in_replay` is the reason in a replay, which
+    /// cannot reach a unit.
     pub(in crate::ui::operate) fn of(
         model: &Model,
         antenna: &AntennaModel,
@@ -97,7 +98,7 @@ impl<'a> Locks<'a> {
     }
 }
 
-/// The reason, by the age of the position, why this motion is not offered.
+/// Returns the reason, by the age of the position, why Azel does not offer this motion.
 fn no_motion(model: &Model, antenna: &AntennaModel, motion: Motion) -> Option<&'static str> {
     let reason = antenna.no_motion(&MotionRequest::Motion(motion), model.steady)?;
     Some(match reason {
@@ -107,7 +108,7 @@ fn no_motion(model: &Model, antenna: &AntennaModel, motion: Motion) -> Option<&'
     })
 }
 
-/// The reason why the unit locks motion, if it does.
+/// Returns the reason why the unit locks motion, if it does.
 fn fault(antenna: &AntennaModel) -> Option<&'static str> {
     let state = &antenna.snapshot.state;
     if state.motion_lock != Some(true) {
@@ -118,13 +119,13 @@ fn fault(antenna: &AntennaModel) -> Option<&'static str> {
     Some(match (is_named, !state.checks.is_empty()) {
         (true, _) => "Locked by a fault. See Faults.",
         (false, false) => "Locked by the unit. See what it reports.",
-        // It tells that it has a fault, but the list of its faults has not come.
+        // The unit reports a fault, but its list of faults has not arrived.
         (false, true) if antenna.is_live() => "Locked: the unit reports a fault without naming it.",
         (false, true) => LATE,
     })
 }
 
-/// The reason why the antenna cannot be sent to a direction at all.
+/// Returns the reason why Azel cannot send the antenna to any direction.
 fn no_direction(antenna: &AntennaModel) -> Option<&'static str> {
     let can = antenna.variant().capabilities;
     if !can.takes_positions {

@@ -1,6 +1,6 @@
-//! The lower part of the card, which scrolls if there is no room: questions and notes, the other
-//! antennas and the readings. In a low window each section folds to one
-//! line with its most important content.
+//! Lower part of the card, which scrolls if it does not fit: questions and notes, the other
+//! antennas, and the readings. In a low window each section folds to one line with its most
+//! important content.
 
 use egui::{Color32, Rect, ScrollArea, Ui, UiBuilder, vec2};
 
@@ -21,9 +21,9 @@ use crate::{
     },
 };
 
-/// Height at the foot of a card that is kept free for the mark that it goes on below.
+/// Height kept free at the foot of a card for the mark of hidden content, points.
 const MORE_BELOW: f32 = 20.0;
-/// A card that hides less than this below its edge does not say so.
+/// Min height of hidden content that the card marks, points.
 const LEAST_HIDDEN: f32 = 4.0;
 
 /// Draws everything below the controls for moving by hand into the rest of the card.
@@ -38,11 +38,11 @@ pub(super) fn show(
     let foot = if state.goes_on_below { MORE_BELOW } else { 0.0 };
     let (seen, strip) = below.split_top_bottom_at_y(below.bottom() - foot);
     ui.scope_builder(UiBuilder::new().id_salt("lower").max_rect(seen), |ui| {
-        // However little room there is, it ends above the mark.
+        // Even in little room, the area ends above the mark.
         let area = ScrollArea::vertical().min_scrolled_height(0.0).auto_shrink(false);
         let shown = area.show(ui, |ui| {
             if ui.ctx().rect_contains_pointer(ui.layer_id(), strip) {
-                // The wheel turns what goes on below the mark as well.
+                // The wheel over the mark scrolls the area, too.
                 let by = ui.input(|input| input.smooth_scroll_delta().y);
                 ui.scroll_with_delta(vec2(0.0, by));
             }
@@ -53,7 +53,7 @@ pub(super) fn show(
             ui.allocate_rect(drawn, egui::Sense::hover());
         });
         let hidden = shown.content_size.y - shown.state.clamped_offset().y - below.height();
-        // In less room the line that is cut says it.
+        // In less room, the cut line shows that the card goes on.
         let goes_on = hidden > LEAST_HIDDEN && below.height() > 2.0 * MORE_BELOW;
         let folds = settle(card.antenna, state, below.height() - shown.content_size.y);
         if std::mem::replace(&mut state.goes_on_below, goes_on) != goes_on || folds {
@@ -65,7 +65,7 @@ pub(super) fn show(
     }
 }
 
-/// Shows in the `strip` at the foot of the card that it goes on below.
+/// Shows a mark in the `strip` at the foot of the card: more content follows below.
 fn more_below(ui: &Ui, strip: Rect) {
     let t = theme::tokens(ui);
     let at = strip.center();
@@ -76,7 +76,7 @@ fn more_below(ui: &Ui, strip: Rect) {
     paint::name_text(ui, "more below", place, words).on_hover_text(words);
 }
 
-/// Shows what comes and goes, and what unfolds.
+/// Shows the sections that appear only when needed, and those that fold.
 fn sections(
     ui: &mut Ui,
     at: &mut Cursor,
@@ -152,8 +152,8 @@ fn sections(
     }
 }
 
-/// Opens what has room in the `free` points that are left in the card, and closes what has none.
-/// Returns `true` if something changed.
+/// Opens the folds that fit into the `free` points left in the card, and closes the others. Returns
+/// `true` if a fold changed.
 fn settle(antenna: &AntennaModel, state: &mut CardState, mut free: f32) -> bool {
     let offsets = offsets::in_force(antenna).map(|_| &mut state.offsets.fold);
     let more = (!antenna.variant().actions.is_empty()).then_some(&mut state.more_fold);
@@ -164,7 +164,7 @@ fn settle(antenna: &AntennaModel, state: &mut CardState, mut free: f32) -> bool 
     has_changed
 }
 
-/// Shows the line of a section. Returns its rectangle if the section was opened just now.
+/// Shows the line of a section. Returns its rectangle if the operator has just opened the section.
 fn fold_line(
     ui: &Ui,
     at: &mut Cursor,
@@ -177,7 +177,7 @@ fn fold_line(
     fold::show(ui, line, &FoldModel { title, value, mark }, open).then_some(line)
 }
 
-/// [`fold_line`] of a section that is open where it has room.
+/// Shows a [`fold_line`] for a section that opens when there is room.
 fn own_fold_line(
     ui: &Ui,
     at: &mut Cursor,
@@ -194,8 +194,8 @@ fn own_fold_line(
     opened
 }
 
-/// Scrolls to an opened section, which may lie below the lower end of the card. Its line
-/// stays in sight.
+/// Scrolls to an opened section, which may lie below the lower end of the card. Keeps the line of
+/// the section in sight.
 fn bring_into_sight(ui: &Ui, at: &Cursor, opened: Option<Rect>) {
     if let Some(line) = opened {
         let section = line.with_max_y(at.y);

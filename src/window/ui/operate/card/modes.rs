@@ -1,4 +1,4 @@
-//! The selector of the mode of the antenna.
+//! Selector of the antenna's mode.
 
 use egui::{Rect, Ui};
 
@@ -15,7 +15,7 @@ use crate::{
     ui::widgets::segmented::{self, Segment},
 };
 
-/// All modes in the order in which they are shown.
+/// All modes in the order of display.
 const ALL: [Intent; 5] =
     [Intent::Standby, Intent::Manual, Intent::Position, Intent::Track, Intent::Park];
 
@@ -38,8 +38,8 @@ pub(super) fn offers(can: Capabilities, mode: Intent) -> bool {
     }
 }
 
-/// Shows the modes that the controller offers, the others are left out. A click requests the mode at
-/// once, except for Park, which takes a hold.
+/// Shows the modes that the controller offers. A click requests the mode at once, except Park,
+/// which takes a hold.
 pub(super) fn show(ui: &Ui, rect: Rect, card: &mut Card<'_>, track: &mut TrackState) {
     let can = card.antenna.variant().capabilities;
     let is_locked = card.model.replay.is_some();
@@ -60,7 +60,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, card: &mut Card<'_>, track: &mut TrackSt
 
 fn segment(antenna: &AntennaModel, is_locked: bool, mode: Intent) -> Segment {
     let snapshot = &antenna.snapshot;
-    // The antenna is in it, but not by this console.
+    // The antenna tracks without a request from this console.
     let is_foreign = antenna.tracks_unasked();
     let current = if is_foreign { Intent::Track } else { snapshot.intent };
     if is_locked || snapshot.link == LinkState::Off {

@@ -27,10 +27,10 @@ use crate::{
 };
 
 const GAP: f32 = 8.0;
-/// Maximum part of the width for the label of a field.
+/// Max share of the width for the label of a field, 0 to 1.
 const LABEL: f32 = 0.42;
 
-/// Input for the actions. No `Debug`: it may contain a password.
+/// Input for the actions. The type has no `Debug`, because it may contain a password.
 #[derive(Clone, Default)]
 pub(super) struct MoreState {
     /// Input by the keys of action and field.
@@ -44,7 +44,7 @@ impl MoreState {
         self.typed.entry((action.key, field.key)).or_insert_with(|| field.kind.untouched())
     }
 
-    /// The action with its input; a sentence if the input is invalid.
+    /// Returns the action with its input, or a sentence about invalid input.
     fn read(&mut self, action: &'static Action) -> Result<Act, String> {
         let read = |field: &'static Field| match field.kind.read(self.text(action, field)) {
             Ok(value) => Ok((field.key, value)),
@@ -55,7 +55,7 @@ impl MoreState {
     }
 }
 
-/// Shows the actions, and starts one, after its question if it has one.
+/// Shows the actions and starts the chosen one, after its question if it has one.
 pub(super) fn show(ui: &mut Ui, at: &mut Cursor, card: &mut Card<'_>, state: &mut MoreState) {
     let actions = card.antenna.variant().actions;
     let Some((action, act)) = list(ui, at, actions, &card.locks, state) else { return };
@@ -68,7 +68,8 @@ pub(super) fn show(ui: &mut Ui, at: &mut Cursor, card: &mut Card<'_>, state: &mu
     }
 }
 
-/// Shows the actions, those without input side by side. Returns the one to start, with its input.
+/// Shows the actions, those without input side by side. Returns the action to start, with its
+/// input.
 fn list(
     ui: &mut Ui,
     at: &mut Cursor,
@@ -89,7 +90,7 @@ fn list(
         let button = Button::normal(action.label).locked(is_locked);
         let width = button.width(ui).min(at.width());
         if action.fields.is_empty() {
-            // Beside the previous one, if there is room.
+            // Start a new row if the current one has no room for the button.
             if right_end + GAP + width > at.right {
                 at.skip(SMALL_HEIGHT + GAP);
                 right_end = at.left - GAP;

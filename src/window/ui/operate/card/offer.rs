@@ -1,5 +1,5 @@
-//! The line below the sentence that offers to track again after STOP, to take over what the unit
-//! tracks by itself, or to take back offsets that were left on it.
+//! Line below the sentence with an offer: track again after STOP, take over the unit's own track,
+//! or take back offsets left on the unit.
 
 use egui::{Align2, Rect, Ui, vec2};
 
@@ -20,7 +20,7 @@ use crate::{
     },
 };
 
-/// A command with its words: before the button, on it, and its accessible name.
+/// Command with its texts: before the button, on it, and its accessible name.
 pub(super) struct Offer {
     words: String,
     button: &'static str,
@@ -28,10 +28,10 @@ pub(super) struct Offer {
     command: UiCommand,
 }
 
-/// Height of the line, with the space above it.
+/// Height of the line with the space above it, points.
 pub(super) const HEIGHT: f32 = button::SMALL_HEIGHT + 6.0;
 
-/// Offsets to take back come before a track to take up again, and that before one to take over.
+/// Returns the first available offer: take back offsets, track again, or take over a track.
 pub(super) fn offer(antenna: &AntennaModel) -> Option<Offer> {
     if let Some(added) = offsets::left(antenna) {
         return Some(Offer {
@@ -50,7 +50,7 @@ pub(super) fn offer(antenna: &AntennaModel) -> Option<Offer> {
             command: UiCommand::Station(again.command.clone()),
         });
     }
-    // Without the elements, Azel has nothing to watch the track by.
+    // Without the elements, Azel cannot watch the track.
     let can_watch = antenna.tracks_unasked() && antenna.snapshot.on_board.is_some();
     let name = antenna.tracked_name().filter(|_| can_watch).map(short)?;
     Some(Offer {

@@ -28,7 +28,7 @@ use crate::{
 
 const KEY: f32 = 36.0;
 const GAP: f32 = 4.0;
-/// Width of the choice of steps.
+/// Width of the choice of steps, points.
 const STEPS: f32 = 132.0;
 
 /// Size of a step, in thousandths of a degree or of a second.
@@ -44,7 +44,7 @@ impl OffsetStep {
     const ALL: [(Self, &'static str); 3] =
         [(Self::Fine, "0.01"), (Self::Medium, "0.1"), (Self::Coarse, "1")];
 
-    /// A step of the kind of `offset`.
+    /// Returns a step of the kind of `offset`.
     pub fn of(self, offset: Offset) -> Offset {
         offset.with_thousandths(match self {
             Self::Fine => 10,
@@ -54,15 +54,15 @@ impl OffsetStep {
     }
 }
 
-/// The section, and the chosen step.
+/// Fold of the section, and the chosen step.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct OffsetsState {
     pub(super) fold: Fold,
     pub step: OffsetStep,
 }
 
-/// The offsets of the track that runs, from here or on board, and whether there is a change to be
-/// undone; `None` while nothing is tracked that takes offsets.
+/// Returns the offsets of the current track, by Azel or on board, and `true` if a change can be
+/// undone. Returns `None` while no track takes offsets.
 pub(super) fn in_force(antenna: &AntennaModel) -> Option<(TrackOffsets, bool)> {
     if let Some(track) = followed(antenna) {
         return Some((track.offsets, track.can_undo));
@@ -72,7 +72,7 @@ pub(super) fn in_force(antenna: &AntennaModel) -> Option<(TrackOffsets, bool)> {
     Some(unit.map(|unit| (unit.offsets, unit.can_undo)).unwrap_or_default())
 }
 
-/// The track for which Azel sends position after position.
+/// Returns the track for which Azel sends position after position.
 fn followed(antenna: &AntennaModel) -> Option<&TrackView> {
     antenna.snapshot.program_track.as_ref().filter(|_| antenna.follows())
 }
@@ -86,14 +86,14 @@ fn is_offered(antenna: &AntennaModel, offset: Offset) -> bool {
     }
 }
 
-/// Offsets that are still on the unit although no track needs them, in words.
+/// Describes the offsets that are still on the unit although no track needs them.
 pub(super) fn left(antenna: &AntennaModel) -> Option<String> {
     let unit = antenna.snapshot.unit_offsets.as_ref()?;
     let is_left = unit.left.is_some() && !unit.offsets.is_none() && !unit.is_changing;
     is_left.then(|| words::offsets(unit.offsets))
 }
 
-/// The value and mark of the section's line, if there are offsets to change.
+/// Returns the value and mark of the section's line, if there are offsets to change.
 pub(super) fn in_words(
     ui: &Ui,
     antenna: &AntennaModel,
@@ -160,7 +160,7 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>, state: &mut Of
     at.skip(4.0);
 }
 
-/// A button for each subject that Azel can remember the offsets of the track for.
+/// Shows a button for each subject for which Azel can remember the offsets of the track.
 fn keep(ui: &Ui, row: Rect, track: &TrackView, card: &mut Card<'_>) {
     let t = theme::tokens(ui);
     let words = "Remember for";
@@ -191,7 +191,7 @@ fn keep(ui: &Ui, row: Rect, track: &TrackView, card: &mut Card<'_>) {
     }
 }
 
-/// Name, less, value and more.
+/// Shows the name, the key for less, the value and the key for more.
 fn row(ui: &Ui, row: Rect, offset: Offset, is_locked: bool, step: OffsetStep, card: &mut Card<'_>) {
     let t = theme::tokens(ui);
     let (name, value) = (words::offset_name(offset), words::offset_value(offset));

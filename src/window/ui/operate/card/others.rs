@@ -17,10 +17,10 @@ use crate::{
     },
 };
 
-/// Height of a line with its sentence.
+/// Height of a line with its sentence, points.
 const HEIGHT: f32 = 48.0;
 
-/// Shows a line for each antenna without a card, in a low window without sentences.
+/// Shows a line for each antenna without a card. A low window omits the sentences.
 pub(super) fn show(
     ui: &Ui,
     at: &mut Cursor,
@@ -35,7 +35,7 @@ pub(super) fn show(
     }
 }
 
-/// Last known direction; empty if unknown.
+/// Returns the last known direction, or a note on maintenance; empty if unknown.
 fn direction(antenna: &AntennaModel) -> String {
     let snapshot = &antenna.snapshot;
     if snapshot.lock_out.is_some() {

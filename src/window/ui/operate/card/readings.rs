@@ -14,12 +14,12 @@ use crate::{
 };
 
 const LINE: f32 = 22.0;
-/// Room for the bar below a line.
+/// Room for the bar below a line, points.
 const BAR: f32 = 6.0;
-/// Maximum part of the width for the label.
+/// Max share of the width for the label, 0 to 1.
 const LABEL: f32 = 0.45;
 
-/// The mark and the colour of a value.
+/// Returns the mark and the colour of a value.
 fn look(tone: Tone, t: &Tokens) -> (Option<Icon>, Color32) {
     match tone {
         Tone::Plain | Tone::Change => (None, t.t1),
@@ -29,7 +29,7 @@ fn look(tone: Tone, t: &Tokens) -> (Option<Icon>, Color32) {
     }
 }
 
-/// The most important reading, for the fold: the gravest, otherwise the first.
+/// Returns the most important reading for the fold: the most severe, otherwise the first.
 pub(super) fn in_words(ui: &Ui, readings: &[Reading]) -> (String, Option<(Icon, Color32)>) {
     let of = |tone: Tone| readings.iter().find(|reading| reading.tone == tone);
     let Some(reading) = of(Tone::Bad).or_else(|| of(Tone::Caution)).or(readings.first()) else {

@@ -1,4 +1,4 @@
-//! The controls for a unit without a connection.
+//! Controls for a unit without a connection.
 
 use egui::{Align2, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
@@ -17,7 +17,7 @@ use crate::{
     },
 };
 
-/// Shows Connect and a separate STOP: the one in the top bar leaves this unit alone.
+/// Shows Connect and a separate STOP, because STOP in the top bar leaves this unit alone.
 pub(super) fn show(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>) {
     let is_locked = card.model.replay.is_some();
     let row = at.take(button::HEIGHT);
@@ -35,7 +35,7 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>) {
     at.skip(6.0);
 }
 
-/// Shows what STOP does with such a unit.
+/// Shows the effect of STOP on a unit without a connection.
 pub(super) fn about(ui: &Ui, at: &mut Cursor, antenna: &AntennaModel) {
     let t = theme::tokens(ui);
     let about = about_stop(antenna);
@@ -63,7 +63,7 @@ fn stop_key(ui: &Ui, rect: Rect, antenna: &AntennaModel, is_locked: bool) -> boo
     let response =
         paint::control(ui, "stop a released unit", rect, Role::Button, !is_locked, &name);
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(&*about));
-    // The fill of STOP is that of the one in the top bar alone.
+    // Only STOP in the top bar has the fill of STOP.
     let border = Stroke::new(2.0, colour);
     ui.painter().rect(rect, button::RADIUS, t.bg3, border, StrokeKind::Inside);
     let words = "Connect and STOP";

@@ -1,4 +1,4 @@
-//! The jog speed: any rate on a slider, a choice of named speeds, or no choice.
+//! Choice of the jog speed: any rate on a slider, one of the named speeds, or no choice.
 
 use egui::{Rect, Ui};
 
@@ -13,14 +13,14 @@ use crate::{
     },
 };
 
-/// The rate to send for the chosen one, degrees per second. With named speeds, the rate of
-/// the nearest of them.
+/// Returns the rate to send, degrees per second. With named speeds, returns the rate of the nearest
+/// one.
 pub(super) fn rate_deg_s(chosen_deg_s: f64, speeds: JogSpeeds, max_deg_s: f64) -> f64 {
     let named = speeds.nearest(chosen_deg_s, max_deg_s);
     named.map_or(chosen_deg_s.min(max_deg_s), |speed| speed.share * max_deg_s)
 }
 
-/// The rate or the name of the speed; empty if there is no choice.
+/// Returns the rate or the name of the speed; empty without a choice.
 pub(super) fn in_words(chosen_deg_s: f64, speeds: JogSpeeds, max_deg_s: f64) -> String {
     match speeds {
         JogSpeeds::AnyRate => format::number(chosen_deg_s, 2),
@@ -32,7 +32,7 @@ pub(super) fn in_words(chosen_deg_s: f64, speeds: JogSpeeds, max_deg_s: f64) -> 
     }
 }
 
-/// The rate `by` steps up, degrees per second.
+/// Returns the rate `by` steps up, degrees per second.
 pub(super) fn stepped(chosen_deg_s: f64, by: i32, speeds: JogSpeeds, max_deg_s: f64) -> f64 {
     let JogSpeeds::Named(named) = speeds else {
         return rate_slider::stepped(chosen_deg_s, by, max_deg_s);
@@ -44,7 +44,8 @@ pub(super) fn stepped(chosen_deg_s: f64, by: i32, speeds: JogSpeeds, max_deg_s: 
     named.get(wanted).map_or(chosen_deg_s, |speed| speed.share * max_deg_s)
 }
 
-/// Shows the choice in `rect`, a slider `is_locked` or not; changes `chosen_deg_s`.
+/// Shows the choice of the speed in `rect` and changes `chosen_deg_s`. `is_locked` locks the
+/// slider.
 pub(super) fn show(
     ui: &Ui,
     rect: Rect,

@@ -1,4 +1,4 @@
-//! Turning an axis by a step: its size, and a key for each direction.
+//! Steps of an axis: their size, and a key for each direction.
 
 use egui::{Align2, Event, EventFilter, Rect, Response, Ui, pos2, vec2};
 
@@ -17,9 +17,9 @@ use crate::{
     },
 };
 
-/// Initial size of a step.
+/// Initial size of a step, degrees.
 const FIRST_DEG: f64 = 0.5;
-/// The unit reports hundredths: a smaller step would not show.
+/// Min size of a step, degrees: the unit reports hundredths, so a smaller step would not show.
 const MIN_DEG: f64 = 0.01;
 const LABEL: f32 = 36.0;
 const FIELD: f32 = 64.0;
@@ -41,14 +41,14 @@ impl Default for StepState {
 }
 
 impl StepState {
-    /// The size in degrees, or the reason why the input is invalid.
+    /// Returns the size, degrees, or the reason why the input is invalid.
     pub(super) fn size_deg(&self, antenna: &AntennaModel) -> Result<f64, String> {
         let max_deg = antenna.config.limits.maximum_step_deg;
         parse::angle(&self.typed, "Step", (MIN_DEG, max_deg))
     }
 }
 
-/// Shows the row. Call only while the keys may be used.
+/// Shows the row. Call only while the operator may use the keys.
 pub(super) fn show(
     ui: &mut Ui,
     at: &mut Cursor,
@@ -104,7 +104,8 @@ pub(super) fn show(
     }
 }
 
-/// Returns `true` if the key has the focus, and keeps the arrow keys from moving it: they step.
+/// Returns `true` if the key has the focus. Keeps the arrow keys from moving the focus, because
+/// they step the axis.
 fn keeps_arrows(ui: &Ui, key: &Response) -> bool {
     if key.has_focus() {
         let filter = EventFilter {
@@ -117,7 +118,7 @@ fn keeps_arrows(ui: &Ui, key: &Response) -> bool {
     key.has_focus()
 }
 
-/// The direction of an arrow key pressed with Shift in this frame. Key repeat is ignored.
+/// Returns the direction of an arrow key pressed with Shift in this frame. Ignores key repeat.
 fn arrow(ui: &Ui) -> Option<JogDirection> {
     ui.input(|input| {
         input.events.iter().find_map(|event| match event {

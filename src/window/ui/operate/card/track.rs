@@ -1,4 +1,4 @@
-//! The tracked and the selected satellite, and the holds before tracking.
+//! Tracked and selected satellite, and the holds before tracking.
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
@@ -32,20 +32,20 @@ use crate::{
     },
 };
 
-/// Minimum width of the satellite on the left.
+/// Min width of the satellite on the left, points.
 const MIN_HELD: f32 = 88.0;
 
-/// Open questions.
+/// Open questions about the track.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct TrackState {
     parking: bool,
-    /// The Sun was chosen and waits for a hold.
+    /// Flag: the operator chose the Sun, which still takes a hold.
     asks_sun: bool,
     hold: HoldState,
     tracking: HoldState,
 }
 
-/// A request that takes a hold.
+/// Request that takes a hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Question {
     Park,
@@ -53,12 +53,12 @@ enum Question {
 }
 
 impl TrackState {
-    /// Opens the question about parking, or drops the questions that are open.
+    /// Opens the question about parking, or drops the open questions.
     pub(super) fn ask_to_park(&mut self, parking: bool) {
         (self.parking, self.asks_sun, self.hold) = (parking, false, HoldState::default());
     }
 
-    /// The note on the open question, if any: the park position, or following the Sun.
+    /// Returns the note on the open question: the park position, or following the Sun.
     pub(super) fn about_the_question(&self, card: &Card<'_>) -> Option<String> {
         match self.question(card)? {
             Question::Park => Some(words::parks_at(card.antenna)),
@@ -79,18 +79,18 @@ fn offers_track(antenna: &AntennaModel) -> bool {
     modes::offers(antenna.variant().capabilities, Intent::Track)
 }
 
-/// Returns `true` if program track can be asked for.
+/// Returns `true` if the operator may request a program track.
 fn can_follow(card: &Card<'_>) -> bool {
     card.antenna.variant().capabilities.takes_positions && card.locks.track.is_none()
 }
 
-/// Sentence about the Sun avoidance that following the Sun lifts.
+/// Returns a sentence about the Sun avoidance that following the Sun lifts.
 fn sun_avoidance(card: &Card<'_>) -> Option<String> {
     let sun = card.model.station.sun_avoidance.filter(|_| can_follow(card))?;
     Some(words::sun_lifted(&card.antenna.config.name, sun.radius_deg))
 }
 
-/// Tracks the selected pass; `is_agreed`: although the unit would miss it.
+/// Tracks the selected pass. With `is_agreed`, tracks it although the unit would miss it.
 pub(super) fn track_selected(card: &mut Card<'_>, is_agreed: bool) {
     let antenna = card.antenna.id();
     let pass = card.model.selected_pass().map(PredictedPass::key);
@@ -120,11 +120,11 @@ pub(super) fn row(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>, state: &mut Car
     }
 }
 
-/// Shows the notes on tracking, and the switch for automatic starting. A refusal that is shown above
-/// as the lock of the jog is left out.
+/// Shows the notes on tracking, and the switch for automatic starting. Leaves out a refusal that
+/// already appears above as the lock of the jog.
 pub(super) fn notes(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>, state: &TrackState) {
     let (model, antenna) = (card.model, card.antenna);
-    // An open question is about something else.
+    // Show no notes during a question, which has another subject.
     if !offers_track(antenna) || state.question(card).is_some() {
         return;
     }
@@ -152,7 +152,7 @@ pub(super) fn notes(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>, state: &Track
     }
 }
 
-/// The reason why the unit would miss the selected satellite.
+/// Returns the reason why the unit would miss the selected satellite.
 fn missed(model: &Model, antenna: &AntennaModel) -> Option<String> {
     let (found, selected) = (antenna.misses()?, model.selected_pass()?);
     let name = selected.satellite.short_name();
@@ -160,14 +160,14 @@ fn missed(model: &Model, antenna: &AntennaModel) -> Option<String> {
     Some(format!("{why} Follow it from here instead."))
 }
 
-/// A further note on how the unit tracks.
+/// Returns a further note on how the unit tracks.
 fn note(model: &Model, antenna: &AntennaModel) -> Option<String> {
     if antenna.snapshot.sun_lifted {
         return Some(words::SUN_IS_LIFTED.to_owned());
     }
     let half_beam_deg = antenna.config.beam_width_deg / 2.0;
     let off_deg = antenna.error().map(|error| error.off_beam.degrees());
-    // The search for a cause looks at minutes, and would tell of an error that is over.
+    // The search for a cause covers minutes, so it may report an error that is over.
     let is_over = |explained: &&Explained| {
         explained.error_deg > half_beam_deg && off_deg.is_some_and(|off| off <= half_beam_deg)
     };
@@ -176,7 +176,7 @@ fn note(model: &Model, antenna: &AntennaModel) -> Option<String> {
     let Some(found) = antenna.supervision() else { return explained };
     let lowest_deg = antenna.config.limits.minimum_elevation_deg;
     let lower = found.lower_minimum_deg.map(|deg| words::lower_minimum(deg, lowest_deg));
-    // Beside a larger error, the small one that is known would look like its cause.
+    // Beside a larger error, the small known error would look like its cause.
     let is_off = off_deg.is_some_and(|off| off > half_beam_deg);
     let off = words::within_beam(found, model.appearance.distances);
     let off = off.filter(|_| found.is_within_beam && !is_off);
@@ -215,8 +215,8 @@ fn question_row(
     }
 }
 
-/// Shows the unit's satellite on the left, and on the right the selected one or the button
-/// to track it.
+/// Shows the unit's satellite on the left. Shows the selected satellite, or the button to track it,
+/// on the right.
 fn satellite_row(ui: &Ui, row: Rect, card: &mut Card<'_>, hold: &mut HoldState) {
     let (model, antenna) = (card.model, card.antenna);
     let is_locked = card.locks.track.is_some();
@@ -261,8 +261,8 @@ fn satellite_row(ui: &Ui, row: Rect, card: &mut Card<'_>, hold: &mut HoldState) 
     }
 }
 
-/// The caption of the satellite on the left: whose it is, and how long ago it was read, if that is not
-/// what the unit answers now.
+/// Returns the caption of the satellite on the left: its source, and the age of its reading if the
+/// unit does not report it now.
 fn held_head(model: &Model, antenna: &AntennaModel) -> String {
     let snapshot = &antenna.snapshot;
     if snapshot.program_track.is_some() || !antenna.variant().capabilities.has_program {
@@ -280,8 +280,8 @@ fn held_head(model: &Model, antenna: &AntennaModel) -> String {
     }
 }
 
-/// The satellite whose elements the unit holds, or the target of program track; or that there is none,
-/// or that it was not read yet. And `true` if the antenna tracks the selected satellite now.
+/// Returns the satellite whose elements the unit holds, the target of the program track, or a
+/// placeholder. Also returns `true` if the antenna tracks the selected satellite now.
 fn held<'a>(model: &Model, antenna: &'a AntennaModel) -> (&'a str, bool) {
     let state = &antenna.snapshot.state;
     let selected = model.selected_pass().map(PredictedPass::number);
@@ -291,7 +291,7 @@ fn held<'a>(model: &Model, antenna: &'a AntennaModel) -> (&'a str, bool) {
         let name = followed.map_or("nothing", |followed| short(&followed.name));
         return (name, is_selected(followed.and_then(|followed| followed.catalog_number)));
     }
-    // An unreadable reply may pass for a name.
+    // Ignore an unreadable reply, which might look like a name.
     let is_readable = state.unreadable.is_none();
     let held = state.on_board.satellite.as_ref().filter(|_| is_readable);
     let last = state.last_satellite.as_ref().filter(|_| is_readable);

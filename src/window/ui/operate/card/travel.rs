@@ -15,7 +15,7 @@ use crate::{
     },
 };
 
-/// The gauges of the axes, with the ends that the unit keeps to where it tells them. Empty for a unit
+/// Returns the gauges of the axes, with the ends that the unit reports. Returns none for a unit
 /// that does not report its axes.
 pub(super) fn gauges(antenna: &AntennaModel) -> Vec<TravelModel<'static>> {
     let can = antenna.variant().capabilities;
@@ -45,7 +45,7 @@ pub(super) fn gauges(antenna: &AntennaModel) -> Vec<TravelModel<'static>> {
     (0..can.axis_count()).filter_map(gauge).collect()
 }
 
-/// Shows the gauges, in a full card below a head.
+/// Shows the gauges; a full card adds a head.
 pub(super) fn show(ui: &Ui, at: &mut Cursor, axes: &[TravelModel<'_>]) {
     let t = theme::tokens(ui);
     if !at.is_short() && !axes.is_empty() {
@@ -69,7 +69,7 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, axes: &[TravelModel<'_>]) {
     }
 }
 
-/// The travel in words, if it is the same for all axes.
+/// Returns the travel in words, if it is the same for all axes.
 fn common_range(axes: &[TravelModel<'_>]) -> Option<String> {
     let (low, high) = axes.first()?.travel_deg;
     let same = |deg: f64, other: f64| (deg - other).abs() < 0.05;

@@ -1,4 +1,4 @@
-//! The row below the sky plot with the slider of its time.
+//! Row below the sky plot with the slider of its time.
 
 use egui::{
     Align2, EventFilter, Key, Modifiers, Rect, Response, Sense, Stroke, Ui, WidgetInfo,
@@ -23,13 +23,13 @@ use crate::{
 const EDGE: f32 = 16.0;
 const GAP: f32 = 16.0;
 const KNOB: f32 = 6.0;
-/// Room above and below the part of the row that takes the pointer.
+/// Margin above and below the part of the row that takes the pointer, points.
 const GRIP: f32 = 8.0;
-/// Share of the row that the slider takes.
+/// Share of the row that the slider takes, 0 to 1.
 const SLIDER: f32 = 0.4;
-/// Step of an arrow key.
+/// Step of an arrow key, seconds.
 const STEP_S: f64 = 60.0;
-/// Step of Page Up and Page Down.
+/// Step of Page Up and Page Down, seconds.
 pub const LONG_STEP_S: f64 = 600.0;
 
 const MOVES_NOTHING: &str = "The slider moves no antenna. To point an antenna, go back to now.";
@@ -58,12 +58,12 @@ pub(in crate::ui::operate) fn show(ui: &Ui, rect: Rect, model: &Model, state: &m
     }
     say(ui, room, model, state);
     if state.time != before {
-        // The plot is drawn before the row.
+        // Draw again: the plot came before the row in this frame.
         ui.request_repaint_after_for(NEXT_FRAME, egui::ViewportId::ROOT);
     }
 }
 
-/// Writes which time it is and that nothing moves.
+/// Shows the time of the sky, and a note that the slider moves no antenna.
 fn say(ui: &Ui, room: Rect, model: &Model, state: &SkyTime) {
     let t = theme::tokens(ui);
     let (upper, lower) = room.shrink2(vec2(0.0, 2.0)).split_top_bottom_at_fraction(0.5);
@@ -132,7 +132,7 @@ fn operate(
 ) {
     let pressed = response.is_pointer_button_down_on() || response.clicked();
     if let Some(pointer) = response.interact_pointer_pos().filter(|_| pressed) {
-        // The keys work from the first touch on.
+        // Take the focus at the first touch: the keys then move the slider.
         response.request_focus();
         let share = f64::from((pointer.x - track.left()) / track.width().max(1.0));
         let span_s = seconds_between(model.now, end);

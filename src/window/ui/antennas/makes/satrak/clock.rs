@@ -42,7 +42,7 @@ pub(super) fn show(
     set(ui, unit, form, commands);
 }
 
-/// Words instead of a sign, which the operator would have to work out.
+/// Shows the clock difference in words, because the operator would have to interpret a sign.
 fn difference(ui: &mut Ui, unit: &ShownUnit<'_>) {
     let t = theme::tokens(ui);
     let clock = unit.antenna.snapshot.state.on_board.clock.filter(|clock| clock.is_set);
@@ -52,7 +52,7 @@ fn difference(ui: &mut Ui, unit: &ShownUnit<'_>) {
     row::plain(ui, DIFFERENCE, &words, clock.is_surely_off().then_some(disabled));
 }
 
-/// Error of the beam due to the clock.
+/// Shows the pointing error that the unit's clock causes.
 fn effect(ui: &mut Ui, unit: &ShownUnit<'_>) {
     let t = theme::tokens(ui);
     let ahead_s = unit.values(CLOCK.key).and_then(|values| AHEAD_S.get(values));
@@ -73,7 +73,8 @@ fn effect(ui: &mut Ui, unit: &ShownUnit<'_>) {
     row::plain(ui, LABEL, &value, Some(verdict));
 }
 
-/// Pass of the satellite that is tracked, else of the one on the unit, else the selected pass.
+/// Returns the pass of the tracked satellite, else of the satellite on the unit, else the selected
+/// pass.
 fn predicted_pass<'a>(unit: &ShownUnit<'a>) -> Option<&'a PredictedPass> {
     let model = unit.model;
     let current_number = || {
@@ -84,7 +85,7 @@ fn predicted_pass<'a>(unit: &ShownUnit<'a>) -> Option<&'a PredictedPass> {
     number.and_then(|number| model.pass_of(number)).or_else(|| model.selected_pass())
 }
 
-/// Angular rate of the satellite at its highest, degrees per second.
+/// Returns the angular rate of the satellite at TCA, degrees per second.
 fn rate_at_tca(model: &Model, predicted: &PredictedPass) -> Option<f64> {
     let tca = predicted.pass.tca.time;
     let look = |seconds| {

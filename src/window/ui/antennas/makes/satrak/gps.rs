@@ -16,8 +16,8 @@ use crate::{
     },
 };
 
-/// Distance from the site beyond which the unit sees other passes than Azel. The unit's
-/// rounding to 0.01° is at most 0.8 km.
+/// Max distance between the unit's location and the site, km. At a greater distance, the unit sees
+/// other passes than Azel. The unit's rounding to 0.01° causes at most 0.8 km.
 const FAR_KM: f64 = 1.0;
 
 pub(super) fn show(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form) {
@@ -45,7 +45,7 @@ fn site_check(ui: &mut Ui, unit: &ShownUnit<'_>) {
     row::note(ui, Some(Icon::Warning), reason, t.warn);
 }
 
-/// Place that the unit uses: that of its receiver, or the one it was given.
+/// Returns the location that the unit uses: the receiver's, or the one entered on the unit.
 fn place(unit: &ShownUnit<'_>) -> Option<Site> {
     let reported = unit.values(GPS.key)?;
     let is_automatic = IS_AUTOMATIC.get(reported) == Some(true);

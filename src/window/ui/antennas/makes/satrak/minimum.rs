@@ -1,4 +1,4 @@
-//! Minimum elevation of a unit that goes lower than the station allows.
+//! Min elevation of a unit that points lower than the station allows.
 
 use egui::{Sense, Ui, vec2};
 

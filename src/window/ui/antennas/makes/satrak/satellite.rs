@@ -26,7 +26,7 @@ use crate::{
     },
 };
 
-/// Groups for the codes of [`TLE_SOURCE`]; their titles are the tabs.
+/// Groups in the order of the codes of [`TLE_SOURCE`]; their titles are the tabs.
 static SOURCES: [&Group; 3] = [&FILE, &WEB, &FTP];
 const TABS: f32 = 216.0;
 
@@ -54,7 +54,7 @@ pub(super) fn show(
     test_from_here(ui, unit, form, shown, effects);
 }
 
-/// Test fetch of the source as typed.
+/// Shows the test that fetches elements from the typed source.
 fn test_from_here(
     ui: &mut Ui,
     unit: &ShownUnit<'_>,
@@ -67,7 +67,7 @@ fn test_from_here(
     let text = |key: &str| {
         group.field(key).map_or_else(String::new, |field| draft.text(field, Some(current)))
     };
-    // A password that nobody typed is the one on the unit.
+    // Without a typed password, use the password on the unit.
     let password = match (text(PASSWORD.name), PASSWORD.get(current)) {
         (typed, Some(secret)) if typed.is_empty() => secret.reveal().to_owned(),
         (typed, _) => typed,
@@ -96,7 +96,7 @@ fn test_from_here(
     });
 }
 
-/// Group of the source that the unit uses.
+/// Returns the group of the source that the unit uses.
 fn used(unit: &ShownUnit<'_>) -> Option<&'static str> {
     let code = TLE_SOURCE.get(unit.values(GENERAL.key)?)?;
     SOURCES.get(usize::try_from(code).ok()?).map(|group| group.key)
@@ -156,8 +156,8 @@ fn tabs(
     is_clicked.then_some(tab)
 }
 
-/// Button to use this source. The unit uses the source that was set last, so sending one
-/// unchanged selects it.
+/// Shows the button that selects this source. The unit uses the source that it received last, so
+/// Azel sends an unchanged value.
 fn use_it(
     ui: &mut Ui,
     unit: &ShownUnit<'_>,
@@ -191,7 +191,7 @@ fn use_it(
     row::status_text(ui, room, spoken, text::small(), t.t3, spoken);
 }
 
-/// The first value unchanged: enough to send the whole group again.
+/// Returns the first editable value unchanged, which is enough to send the whole group again.
 fn again(group: &Group, current: Option<&Values>) -> Values {
     let plain = |kind: &Kind| !matches!(kind, Kind::Password(_));
     let editable = group.fields.iter().filter(|f| f.access == Access::Edit && plain(&f.kind));

@@ -44,7 +44,8 @@ pub(super) fn show(
     take_from_pass(ui, unit, form);
 }
 
-/// Switch for automatic tracking. It asks first, for the antenna may start by itself.
+/// Shows the switch for automatic tracking. The switch asks the operator before it switches on,
+/// because the antenna may then start unattended.
 fn automatic(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     let columns = Columns::new(row::take(ui));
@@ -88,7 +89,7 @@ fn automatic(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form, commands: &mut 
     }
 }
 
-/// Reason of a refused request for it, taken from the events.
+/// Returns the reason why a request for automatic tracking failed, from the events.
 fn refusal(unit: &ShownUnit<'_>, form: &Form) -> Option<String> {
     let requested = form.auto_asked?;
     let (event, _) = unit.antenna.news.as_ref().filter(|(_, time)| *time >= requested)?;
