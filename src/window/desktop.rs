@@ -1,5 +1,6 @@
-//! Notifications, sounds and file dialogs of the desktop. On Linux notifications and sounds go to the notification service of the
-//! session and to the first player of sounds that works; elsewhere there are none.
+//! Notifications, sounds and file dialogs of the desktop. On Linux, notifications go to the
+//! notification service of the session, and sounds to the first player that works. Other systems
+//! have neither.
 
 #[cfg(target_os = "linux")]
 mod bus;
@@ -18,48 +19,49 @@ use self::elsewhere::{Bus, Player};
 #[cfg(target_os = "linux")]
 use self::{bus::Bus, player::Player};
 
-/// A notification of the desktop.
+/// A notification of the desktop, which may replace an earlier one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Notification {
     pub title: String,
     pub text: String,
     pub urgency: Urgency,
-    /// A later one with the same number takes its place.
+    /// Number of the notification. A later notification with the same number replaces it.
     pub number: Option<u64>,
 }
 
-/// How urgent it is to the desktop, which may show what is critical until it is closed.
+/// Urgency for the desktop. The desktop may keep a critical notification until the operator closes
+/// it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Urgency {
     Normal,
     Critical,
 }
 
-/// Two tones.
+/// A sound of two tones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sound {
     Falling,
     Rising,
 }
 
-/// Why nothing is shown or sounded.
+/// Reason why the desktop showed or played nothing.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Missing {
     #[error("there is no bus of a desktop session: {0}")]
     Bus(String),
     #[error("no notification service answers: {0}")]
     Service(String),
-    /// None of these is installed.
+    /// List of the supported players; none of them is installed.
     #[error("there is no player of sounds: {0}")]
     Player(&'static str),
-    /// The last one that was tried.
+    /// Error of the last player that Azel tried.
     #[error("the sound was not played: {0}")]
     NotPlayed(String),
     #[error("not on this operating system")]
     Elsewhere,
 }
 
-/// What of the desktop is missing, as far as it was tried.
+/// Missing outlets of the desktop, as far as Azel has tried them.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Outlets {
     pub notifications: Option<Missing>,
@@ -67,7 +69,7 @@ pub struct Outlets {
 }
 
 impl Outlets {
-    /// Whether this computer could play a sound, even if the last one was not played.
+    /// Returns `true` if this computer could play a sound, even if the last sound failed.
     pub fn has_player(&self) -> bool {
         !matches!(self.sounds, Some(Missing::Player(_) | Missing::Elsewhere))
     }
@@ -88,13 +90,13 @@ impl Desktop {
         self.found(Some(notifications), Some(self.player.look()));
     }
 
-    /// Shows these notifications and plays the sound, both at once.
+    /// Shows these notifications and plays the sound at the same time.
     pub async fn tell(&mut self, notifications: &[Notification], sound: Option<Sound>) {
         let show = async {
             let mut shown = None;
             for notification in notifications {
                 let is_down = matches!(shown, Some(Err(_)));
-                // A service that does not answer must not hold up the next news for long.
+                // A service that does not answer must not delay the next notices for long.
                 if is_down && notification.urgency != Urgency::Critical {
                     continue;
                 }
@@ -112,7 +114,7 @@ impl Desktop {
         self.found(shown, played);
     }
 
-    /// Closes the notifications with these numbers, as far as they are shown.
+    /// Closes the notifications with these numbers, if the desktop shows them.
     pub async fn close(&mut self, numbers: &[u64]) {
         for number in numbers {
             self.bus.close(*number).await;
@@ -123,7 +125,7 @@ impl Desktop {
         &self.outlets
     }
 
-    /// Takes what came of an attempt. What is missing is logged once.
+    /// Records the outcome of an attempt. Azel logs a missing outlet once.
     fn found(
         &mut self,
         notifications: Option<Result<(), Missing>>,

@@ -1,5 +1,5 @@
-//! Lists for people and for other programs: passes, look angles, plans, rehearsals and recorded passes.
-//! Each list is a struct of columns; comma-separated values and JSON are written from the same struct.
+//! Lists for people and for other programs: passes, look angles, plans, rehearsals and recorded
+//! passes. Each list is a struct of columns; Azel writes CSV and JSON from the same struct.
 
 mod looks;
 mod passes;
@@ -41,13 +41,13 @@ pub enum EventFormat {
     Ics,
 }
 
-/// To the nearest second, in UTC.
+/// Formats a time in UTC, rounded to the nearest second.
 pub fn civil(time: Timestamp, format: &str) -> String {
     let rounded = time.round(jiff::Unit::Second).unwrap_or(time);
     rounded.to_zoned(TimeZone::UTC).strftime(format).to_string()
 }
 
-/// A duration in minutes and seconds.
+/// Formats a duration as minutes and seconds.
 pub fn minutes(seconds: f64) -> String {
     let whole = seconds.round() as i64;
     format!("{}:{:02}", whole / 60, whole % 60)

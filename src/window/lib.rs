@@ -1,7 +1,8 @@
-//! The window of a station: its views, and the model that they draw. It knows the contract of a station,
-//! and nothing of the station itself.
+//! The window of a station: its views, and the model that they draw. The window depends on the
+//! contract of a station, but not on the station itself.
 //!
-//! From the bottom: [`desktop`], [`export`], [`model`], [`ui`]; a lower folder never names a higher one.
+//! Layers from the bottom: [`desktop`], [`export`], [`model`], [`ui`]; a lower folder never names a
+//! higher one.
 
 pub mod desktop;
 pub mod export;

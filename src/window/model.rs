@@ -1,5 +1,5 @@
-//! The model: the state that the views show. Only the shell of the window changes it; a view
-//! reads it and queues commands.
+//! The model: the state that the views show. Only the shell of the window changes the model; views
+//! read it and queue commands.
 
 mod appearance;
 pub mod catalog_table;
@@ -61,11 +61,11 @@ use crate::{
     station::{AntennaId, Station},
 };
 
-/// The view that fills the window.
+/// A view that fills the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum View {
-    /// Watch and drive.
+    /// Watching and moving the antennas.
     #[default]
     Operate,
     /// The schedule of the antennas.
@@ -76,75 +76,77 @@ pub enum View {
     Antennas,
     /// The traffic on the links.
     Console,
-    /// The passes that were tracked.
+    /// The recorded passes.
     Record,
     /// The satellites over the globe.
     Map,
     /// The station's settings.
     Preferences,
-    /// The set-up of a station, during the demonstration.
+    /// The set-up of a station during the demonstration.
     Setup,
 }
 
-/// Outcome of reading or writing a file with a horizon mask.
+/// Outcome of reading or writing a horizon mask file.
 pub enum MaskNews {
-    /// A mask was read, in this form.
+    /// A mask read from a file, and its format.
     Read(HorizonMask, MaskForm),
-    /// A mask was written here.
+    /// Path of the written file.
     Written(PathBuf),
-    /// The operation failed, with the reason.
+    /// Reason of the failure.
     Failed(String),
 }
 
-/// All state shown in the window: what the station published last, and what this window adds.
+/// All state that the window shows: the last published state of the station and the window's own
+/// state.
 ///
-/// It dereferences to the snapshot, so that a view reads `model.antennas` whoever keeps them.
+/// The model dereferences to the snapshot, so that a view can read `model.antennas`.
 pub struct Model {
-    /// The station as published last.
+    /// The last published state of the station.
     shown: Arc<Snapshot>,
     /// UTC of this frame.
     pub now: Timestamp,
-    /// The steady clock of this frame, for ages.
+    /// Steady clock at this frame, for computing ages.
     pub steady: Instant,
-    /// The stations of the station menu.
+    /// Known stations for the station menu.
     pub stations: Stations,
-    /// Files and texts that are offered as elements; `None` without any.
+    /// Files and texts offered as elements; `None` without an offer.
     pub intake: Option<Intake>,
-    /// The table of the catalog.
+    /// Rows of the catalog table, and its question.
     pub catalog_table: CatalogTable,
-    /// The traffic on the links of the antennas, in the same order.
+    /// Traffic on the links of the antennas, in the order of the antennas.
     pub wires: Vec<WireLog>,
-    /// Index of the antenna whose card is shown.
+    /// Index of the antenna whose card the window shows.
     pub selected_antenna: usize,
-    /// How the window looks.
+    /// Theme, scale and formats of the window.
     pub appearance: Appearance,
-    /// The choice of passes in the list.
+    /// Selection of passes in the list.
     pub list: ListChoice,
-    /// The selected pass.
+    /// Key of the selected pass.
     pub selected: Option<PassListKey>,
     /// The pass that the operator chose; it stays selected until it is over.
     pub chosen: Option<PassListKey>,
     /// The sky at `now`.
     pub sky: Sky,
-    /// The globe at `now`, as long as the map shows it.
+    /// The globe at `now`, updated while the window shows the map.
     pub globe: Globe,
     /// Effects of the keep-outs on the predicted passes.
     pub obstacle_effects: Effects<obstacles::Question>,
-    /// How much of the predicted passes an antenna tracks.
+    /// Share of the predicted passes that an antenna tracks.
     pub mount_effects: Effects<mounts::Question>,
     /// Effects of an edited site.
     pub site_effects: Effects<sites::Question>,
-    /// When antennas would join passes that are under way.
+    /// Times when antennas would join current passes.
     pub joinings: Joinings,
-    /// The last rehearsal of the plan.
+    /// Progress or result of the last rehearsal.
     pub rehearsal: RehearsalState,
-    /// Means for alarms and reminders that the desktop lacks.
+    /// Ways to announce alarms and reminders that the desktop lacks.
     pub outlets: Outlets,
-    /// The view that fills the window.
+    /// View that fills the window.
     pub view: View,
-    /// The replay that this model is of; `None` for the live station.
+    /// State of the replay that this model shows; `None` for the live station.
     pub replay: Option<Replayed>,
-    /// Why the last replay ended by itself, until the operator closes that or opens another view.
+    /// Reason why the last replay ended automatically, until the operator closes the message or
+    /// opens another view.
     pub replay_end: Option<ReplayEnd>,
 }
 
@@ -157,7 +159,7 @@ impl Deref for Model {
 }
 
 impl Model {
-    /// The model of a station that has told nothing yet.
+    /// Returns the model of a station that has published nothing yet.
     pub fn before_anything(now: Moment) -> Self {
         Self {
             shown: Arc::new(Snapshot::before_anything(now)),
@@ -186,33 +188,33 @@ impl Model {
         }
     }
 
-    /// The published state.
+    /// Returns the published state.
     pub fn shown(&self) -> &Arc<Snapshot> {
         &self.shown
     }
 
-    /// The published state, to change what a client adds to it: a pressed STOP, an alarm of its own.
+    /// Returns the published state for a client that adds to it: a pressed STOP or its own alarm.
     pub fn shown_mut(&mut self) -> &mut Snapshot {
         Arc::make_mut(&mut self.shown)
     }
 
-    /// The selected antenna.
+    /// Returns the selected antenna.
     pub fn antenna(&self) -> Option<&AntennaModel> {
         self.antennas.get(self.selected_antenna)
     }
 
-    /// The index of an antenna, if the station still has it.
+    /// Returns the index of an antenna, if the station still has the antenna.
     pub fn place(&self, id: AntennaId) -> Option<usize> {
         self.antennas.iter().position(|antenna| antenna.id() == id)
     }
 
-    /// An antenna, if the station still has it.
+    /// Returns an antenna, if the station still has it.
     pub fn antenna_of(&self, id: AntennaId) -> Option<&AntennaModel> {
         self.antennas.get(self.place(id)?)
     }
 
-    /// The station that a form starts from: that of the demonstration without its antennas, whose
-    /// addresses end with it.
+    /// Returns the station with which a form starts. In the demonstration it has no antennas,
+    /// because their addresses end with the demonstration.
     pub fn station_to_edit(&self) -> Station {
         let station = Station::clone(&self.station);
         if !self.demo {
@@ -221,23 +223,23 @@ impl Model {
         Station { name: Station::default().name, antennas: Vec::new(), ..station }
     }
 
-    /// The selected pass, until it is over.
+    /// Returns the selected pass until it is over.
     pub fn selected_pass(&self) -> Option<&PredictedPass> {
         self.pass_ahead(self.selected?)
     }
 
-    /// The pass of a favourite that is under way, otherwise its next one.
+    /// Returns the current or next pass of a favourite.
     pub fn pass_of(&self, catalog_number: u32) -> Option<&PredictedPass> {
         let passes = self.pass_lists.favourites.upcoming(self.now);
         passes.iter().find(|predicted| predicted.number() == catalog_number)
     }
 
-    /// The pass of any favourite that is under way or comes next.
+    /// Returns the current or next pass of any favourite.
     pub fn next_pass(&self) -> Option<&PredictedPass> {
         self.pass_lists.next(self.now)
     }
 
-    /// The passes that the list shows.
+    /// Returns the passes that the list shows.
     pub fn upcoming(&self) -> UpcomingPasses<'_> {
         match self.list.scope {
             Scope::Favourites => {
@@ -247,7 +249,7 @@ impl Model {
         }
     }
 
-    /// Takes the state published by the station, and the logs of its links.
+    /// Takes the published state of the station and the logs of its links.
     pub fn take(&mut self, shown: Arc<Snapshot>, wire: impl Fn(AntennaId) -> Option<WireLog>) {
         self.take_demo(shown.demo);
         let before = std::mem::replace(&mut self.shown, shown);
@@ -264,7 +266,7 @@ impl Model {
         self.wires = self.antennas.iter().map(wire).collect();
     }
 
-    /// The set-up closes with the demonstration; then the next pass over the new site is selected.
+    /// Closes the set-up when the demonstration ends, and selects the next pass over the new site.
     fn take_demo(&mut self, is_demo: bool) {
         if self.demo && !is_demo {
             self.drop_choice();
@@ -274,7 +276,8 @@ impl Model {
         }
     }
 
-    /// Raises the alarm that the station has published nothing new for `stood`; `None` clears it.
+    /// Raises an alarm if the station has published nothing new for `stood`; `None` clears the
+    /// alarm.
     pub fn watch_station(&mut self, stood: Option<Duration>) {
         let is_standing = |alarm: &&mut Alarm| {
             matches!(alarm.kind, AlarmKind::StationStands(_)) && !alarm.is_over()
@@ -318,7 +321,7 @@ impl Model {
         self.sky.refresh(satellites, selected.as_deref(), site, self.now);
     }
 
-    /// The sky at another time, without day and night.
+    /// Returns the sky at another time, without day and night.
     pub fn sky_at(&self, time: Timestamp) -> Sky {
         let selected = self.selected_pass().map(|predicted| &*predicted.satellite);
         Sky::new(&self.pass_lists.favourites.satellites, selected, self.station.site, time)

@@ -1,4 +1,4 @@
-//! Views and widgets: they draw and queue commands, nothing else.
+//! Views and widgets. They only draw and queue commands.
 
 pub mod along;
 pub mod antennas;

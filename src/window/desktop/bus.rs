@@ -12,18 +12,18 @@ use super::{Missing, Notification, Urgency};
 
 const SERVICE: &str = "org.freedesktop.Notifications";
 pub(super) const OBJECT: &str = "/org/freedesktop/Notifications";
-/// The service may be started for the call.
+/// Timeout of a call; the desktop may have to start the service first.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// Most notifications that can be replaced: as many as there can be alarms.
+/// Max number of replaceable notifications, the same as the max number of alarms.
 const MAX_CHARS: usize = 200;
-/// The service decides for how long a notification is shown.
+/// Value with which the service decides how long it shows a notification.
 const ITS_OWN_TIME: i32 = -1;
 
-/// A connection to the service, made when it is needed.
+/// A connection to the service, opened on first use.
 #[derive(Default)]
 pub(super) struct Bus {
     service: Option<Service>,
-    /// Ids of the service by our numbers.
+    /// Ids that the service assigned, by Azel's own numbers.
     shown: BTreeMap<u64, u32>,
 }
 
@@ -45,7 +45,7 @@ impl Bus {
     pub(super) async fn show(&mut self, notification: &Notification) -> Result<(), Missing> {
         let is_old = self.service.is_some();
         let mut shown = self.notify(notification).await;
-        // The session may have got another bus since.
+        // The session bus may have restarted since the last call.
         if shown.is_err() && is_old {
             shown = self.notify(notification).await;
         }
@@ -59,8 +59,8 @@ impl Bus {
         Ok(())
     }
 
-    /// Closes the notification with this number, if it was shown. One that the operator has closed
-    /// is unknown to the service, which then answers with an error.
+    /// Closes the notification with this number, if it was shown. If the operator has closed it
+    /// already, the service answers with an error.
     pub(super) async fn close(&mut self, number: u64) {
         let Some(id) = self.shown.remove(&number) else { return };
         let Some(service) = &self.service else { return };
@@ -80,7 +80,7 @@ impl Bus {
         let hints = HashMap::from([
             ("urgency", Value::from(urgency)),
             ("desktop-entry", Value::from("azel")),
-            // Whether and how it sounds is set in Azel.
+            // The operator sets the sound in Azel.
             ("suppress-sound", Value::from(true)),
         ]);
         let text = if service.reads_markup { escaped(text) } else { text.clone() };

@@ -1,22 +1,22 @@
-//! The file dialogs of the desktop. They return once the operator has chosen: they are for
-//! threads that nobody waits for.
+//! The file dialogs of the desktop. Each function returns once the operator has chosen, so call it
+//! on a background thread.
 
 use std::path::{Path, PathBuf};
 
-/// Nothing on this computer shows a dialog.
+/// Error: this computer has no program that shows file dialogs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error(
     "this desktop shows no file dialogs; the packages xdg-desktop-portal-gtk or zenity add them"
 )]
 pub struct NoDialog;
 
-/// Asks for files to open; none after Cancel.
+/// Asks for files to open; returns no files after Cancel.
 pub fn files_to_open(title: &str) -> Result<Vec<PathBuf>, NoDialog> {
     let dialog = dialog(title)?;
     Ok(dialog.pick_files().unwrap_or_default())
 }
 
-/// Asks for one file to open, beginning in `folder`; `None` after Cancel.
+/// Asks for one file to open, starting in `folder`; `None` after Cancel.
 pub fn file_to_open(title: &str, folder: Option<&Path>) -> Result<Option<PathBuf>, NoDialog> {
     let dialog = dialog(title)?;
     Ok(match folder {
@@ -25,15 +25,14 @@ pub fn file_to_open(title: &str, folder: Option<&Path>) -> Result<Option<PathBuf
     })
 }
 
-/// Asks where to save a file, which is called `name` unless the operator calls it otherwise;
-/// `None` after Cancel.
+/// Asks where to save a file and proposes `name`; `None` after Cancel.
 pub fn file_to_save(title: &str, name: &str) -> Result<Option<PathBuf>, NoDialog> {
     let dialog = dialog(title)?;
     Ok(dialog.set_file_name(name).save_file())
 }
 
 fn dialog(title: &str) -> Result<rfd::FileDialog, NoDialog> {
-    // A dialog that cannot be shown would look like one that was cancelled.
+    // A dialog that fails to open would look like a cancelled one.
     if is_shown() { Ok(rfd::FileDialog::new().set_title(title)) } else { Err(NoDialog) }
 }
 
@@ -47,8 +46,8 @@ fn is_shown() -> bool {
     has_portal().unwrap_or(false) || has_zenity()
 }
 
-/// Whether the service of the desktop session has dialogs for files ("File Chooser" of the XDG
-/// Desktop Portal).
+/// Returns `true` if the desktop session has file dialogs ("File Chooser" of the XDG Desktop
+/// Portal).
 #[cfg(target_os = "linux")]
 fn has_portal() -> zbus::Result<bool> {
     let bus = zbus::blocking::Connection::session()?;

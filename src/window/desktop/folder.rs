@@ -1,4 +1,4 @@
-//! The folders of the desktop: its file manager, and where documents are.
+//! Folders of the desktop: the file manager, and the folder for documents.
 
 use std::{
     io,
@@ -6,7 +6,7 @@ use std::{
     process::{Command, ExitStatus, Stdio},
 };
 
-/// Why a folder was not opened.
+/// Reason why a folder was not opened.
 #[derive(Debug, thiserror::Error)]
 pub enum NotOpened {
     #[error("{PROGRAM} cannot be started: {0}")]
@@ -22,13 +22,13 @@ const PROGRAM: &str = "explorer";
 #[cfg(not(any(target_os = "macos", windows)))]
 const PROGRAM: &str = "xdg-open";
 
-/// Shows `folder` in the file manager. Waits for the program that finds it: for threads that
-/// nobody waits for.
+/// Shows `folder` in the file manager. Waits for the program of the file manager, so call it on a
+/// background thread.
 pub fn open(folder: &Path) -> Result<(), NotOpened> {
     open_with(PROGRAM, folder)
 }
 
-/// The folder for the operator's documents, or the home folder.
+/// Returns the folder for the operator's documents, or the home folder.
 pub fn documents() -> Option<PathBuf> {
     let user = directories::UserDirs::new()?;
     let documents = user.document_dir().filter(|folder| folder.is_dir());
@@ -43,7 +43,7 @@ fn open_with(program: &str, folder: &Path) -> Result<(), NotOpened> {
         .stderr(Stdio::null())
         .status()
         .map_err(NotOpened::NoProgram)?;
-    // The program of Windows fails whatever it does.
+    // The Windows program reports a failure even on success.
     if status.success() || cfg!(windows) { Ok(()) } else { Err(NotOpened::Failed(status)) }
 }
 

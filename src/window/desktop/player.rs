@@ -1,4 +1,4 @@
-//! The players of sounds that desktops bring.
+//! The sound players that desktops install.
 
 use std::{
     env,
@@ -14,14 +14,14 @@ use tokio::{process::Command, time::timeout};
 
 use super::{Missing, Sound};
 
-/// Players with what they are called with before the name of the file.
+/// Programs of the players, with the arguments before the file name.
 const PLAYERS: [(&str, &[&str]); 4] =
     [("pw-play", &[]), ("paplay", &[]), ("aplay", &["-q"]), ("canberra-gtk-play", &["-f"])];
 const NAMES: &str = "pw-play, paplay, aplay or canberra-gtk-play";
-/// The sounds last less than half a second.
+/// Timeout of a player. The sounds last less than half a second.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// The players found, the one that worked last first.
+/// The players found, the last successful one first.
 pub(super) struct Player {
     found: Vec<(PathBuf, &'static [&'static str])>,
 }
@@ -33,7 +33,7 @@ impl Default for Player {
 }
 
 impl Player {
-    /// The players in these folders.
+    /// Creates a player from the programs found in these folders.
     pub(super) fn with_path(path: Option<OsString>) -> Self {
         let path = path.unwrap_or_default();
         let place = |name: &str| {
@@ -48,7 +48,7 @@ impl Player {
         if self.found.is_empty() { Err(Missing::Player(NAMES)) } else { Ok(()) }
     }
 
-    /// Plays the sound to its end with the first player that can.
+    /// Plays the sound to its end with the first player that works.
     pub(super) async fn play(&mut self, sound: Sound) -> Result<(), Missing> {
         let mut outcome = self.look();
         for index in 0..self.found.len() {
@@ -70,7 +70,7 @@ impl Player {
 async fn run(program: &PathBuf, arguments: &[&str], sound: Sound) -> io::Result<ExitStatus> {
     let mut player = Command::new(program)
         .args(arguments)
-        // All of them take the name of a file, and some nothing else.
+        // All players accept a file name; some accept nothing else.
         .arg("/dev/stdin")
         .stdin(file(sound)?)
         .stdout(Stdio::null())
@@ -80,7 +80,8 @@ async fn run(program: &PathBuf, arguments: &[&str], sound: Sound) -> io::Result<
     timeout(PATIENCE, player.wait()).await.map_err(io::Error::from)?
 }
 
-/// A file with the sound that goes with its last reader.
+/// Returns a temporary file with the sound. The operating system deletes the file after the last
+/// reader.
 fn file(sound: Sound) -> io::Result<File> {
     let bytes: &[u8] = match sound {
         Sound::Falling => include_bytes!("../../../assets/sounds/alarm.wav"),
@@ -98,7 +99,7 @@ mod tests {
 
     use super::*;
 
-    /// A player that does this. `$log` is a file in its folder.
+    /// Writes a fake player with this script. `$log` is a file in its folder.
     fn player(folder: &Path, name: &str, script: &str) {
         let path = folder.join(name);
         let log = folder.join("log");

@@ -1,4 +1,4 @@
-//! A notification service that keeps what it is called with, also for the package above.
+//! A fake notification service that records its calls, also for tests of the parent package.
 
 #![allow(
     clippy::unwrap_used,
@@ -45,7 +45,7 @@ impl Desk {
         self.closed.push(id);
     }
 
-    // The signature is the specification's.
+    // The specification defines this signature.
     #[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)]
     fn notify(
         &mut self,
@@ -73,7 +73,7 @@ impl Desk {
     }
 }
 
-/// A connection to a service, the service, and its calls.
+/// Returns a connection to a fake service, the service and its calls.
 pub(super) async fn desk(capabilities: &[&str]) -> (Bus, Connection, mpsc::Receiver<Call>) {
     let (near, far) = UnixStream::pair().unwrap();
     let (calls, called) = mpsc::sync_channel(1000);
@@ -89,13 +89,13 @@ pub(super) async fn desk(capabilities: &[&str]) -> (Bus, Connection, mpsc::Recei
     (Bus::new(service), server.unwrap(), called)
 }
 
-/// Ids of the notifications that were closed.
+/// Returns the ids of the notifications that were closed.
 pub async fn closed(server: &Connection) -> Vec<u32> {
     let desk = server.object_server().interface::<_, Desk>(OBJECT).await.unwrap();
     desk.get().await.closed.clone()
 }
 
-/// A desktop with a notification service and without players.
+/// Returns a desktop with a notification service and without sound players.
 pub fn desktop() -> (Desktop, Connection, mpsc::Receiver<Call>) {
     let (bus, server, calls) = zbus::block_on(desk(&["body"]));
     (Desktop { bus, player: Player::with_path(None), ..Desktop::default() }, server, calls)

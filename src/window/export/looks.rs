@@ -14,16 +14,16 @@ use super::{
 };
 use crate::astro::{Site, time};
 
-/// Look angles to write.
+/// A list of look angles to write.
 #[derive(Debug, Clone, Copy)]
 pub struct LookList<'a> {
     pub satellite: &'a Satellite,
     pub site: Site,
     pub start: Timestamp,
-    /// Number of rows; the first is at `start`.
+    /// Number of rows; the first row is at `start`.
     pub count: u32,
     pub step_s: f64,
-    /// Frequency for which the Doppler shift is written.
+    /// Carrier frequency of the Doppler shift, Hz.
     pub carrier_hz: Option<f64>,
 }
 

@@ -26,10 +26,10 @@ use crate::{
     },
 };
 
-/// Below this elevation of the Sun a sunlit satellite can be seen from the ground, degrees.
+/// Sun elevation below which a sunlit satellite can be seen from the ground, degrees.
 const DARK_SUN_DEG: f64 = -6.0;
 
-/// A satellite, ready for computation and for export.
+/// A satellite prepared for computation and export.
 #[derive(Debug, Clone)]
 pub struct Satellite {
     pub elements: Elements,
@@ -42,18 +42,18 @@ impl Satellite {
         Ok(Self { elements, propagator })
     }
 
-    /// Age of the elements at `time` in days, negative before their epoch.
+    /// Returns the age of the elements at `time` in days, negative before their epoch.
     fn age_days(&self, time: Timestamp) -> f64 {
         rounded(self.elements.age_s(time) / time::DAY_S, 1e4)
     }
 }
 
-/// Range and range rate from [`Propagator::over_ground`] are nearer than this to those from
+/// Max difference between the ranges, km, and range rates, km/s, of [`Propagator::over_ground`] and
 /// [`Propagator::state_at`], at 70 km and beyond.
 const NEAR_KM: f64 = 1e-6;
 const NEAR_KM_S: f64 = 1e-8;
 
-/// Site from which a satellite is seen, and the carrier for its Doppler shift.
+/// Site of the observer, and the carrier for the Doppler shift.
 #[derive(Debug, Clone, Copy)]
 struct View {
     site: SiteFrame,
@@ -61,8 +61,8 @@ struct View {
 }
 
 impl View {
-    /// The distance that follows from the state that [`Propagator::state_at`] gives, to the last
-    /// digit of what `written` makes of it; `near` is almost there, and nearly always enough.
+    /// Returns a distance that `written` formats exactly like the distance from
+    /// [`Propagator::state_at`]. The approximation `near` suffices nearly always.
     fn distance<T: PartialEq>(
         &self,
         satellite: &Satellite,
@@ -95,16 +95,16 @@ impl Borrow<Propagator> for Satellite {
     }
 }
 
-/// A search for passes, and the mask that cuts them.
+/// A search for passes, and the horizon mask that cuts them.
 #[derive(Debug, Clone)]
 pub struct PassQuery {
     pub search: PassSearch,
-    /// Each stretch of a pass above the mask counts as a pass.
+    /// Horizon mask; each stretch of a pass above the mask counts as a pass.
     pub mask: Option<HorizonMask>,
 }
 
 impl PassQuery {
-    /// The parts of `pass` that belong to the query.
+    /// Returns the parts of `pass` that belong to the query.
     pub fn parts(&self, propagator: &Propagator, pass: Pass) -> Vec<Pass> {
         let Some(mask) = &self.mask else { return vec![pass] };
         let mut stretches = clear_stretches(propagator, self.search.site, mask, &pass);
@@ -112,7 +112,7 @@ impl PassQuery {
         stretches
     }
 
-    /// The passes of one satellite that belong to the query, in another window.
+    /// Returns the passes of one satellite that belong to the query, in another time window.
     fn passes_between(
         &self,
         propagator: &Propagator,
@@ -131,23 +131,23 @@ pub struct ExportedPass<'a> {
     pub pass: Pass,
 }
 
-/// Context of a list of passes: everything but the passes.
+/// Context of a list of passes: all data except the passes.
 #[derive(Debug, Clone, Copy)]
 pub struct PassList<'a> {
     pub query: &'a PassQuery,
     /// Name of the site, for calendars.
     pub place: Option<&'a str>,
-    /// Frequency for which the Doppler shift is written.
+    /// Carrier frequency of the Doppler shift, Hz.
     pub carrier_hz: Option<f64>,
-    /// How long before AOS an event of a calendar has its alarm.
+    /// Time between the alarm of a calendar event and AOS, seconds.
     pub alarm_before_s: Option<f64>,
     /// Time stamp of the events of a calendar.
     pub now: Timestamp,
 }
 
 impl PassList<'_> {
-    /// Writes the list of `rows`, in their order. All times are UTC. Rows of CSV and JSON are made by
-    /// the threads of the rayon pool in which this is called, some thousand at a time.
+    /// Writes the list of `rows` in their order. All times are UTC. The threads of the current
+    /// rayon pool make the rows of CSV and JSON, some thousand at a time.
     pub fn write<'a>(
         &self,
         out: &mut impl Write,
@@ -195,7 +195,7 @@ pub(super) fn is_refracted(site: Site) -> bool {
     site.refraction().air != Air::None
 }
 
-/// The last line of a table.
+/// Returns the last line of a table.
 pub(super) fn about_elevations(are_apparent: bool) -> &'static str {
     if are_apparent {
         "Elevations are apparent, with the refraction of radio waves."
@@ -204,17 +204,17 @@ pub(super) fn about_elevations(are_apparent: bool) -> &'static str {
     }
 }
 
-/// The times of AOS, TCA and LOS.
+/// Returns the times of AOS, TCA and LOS.
 fn times(pass: &Pass) -> [Timestamp; 3] {
     [pass.aos.time, pass.tca.time, pass.los.time]
 }
 
-/// An azimuth that is never written as 360.0.
+/// Returns an azimuth, degrees, that is never written as 360.0.
 pub(super) fn turn(azimuth_deg: f64) -> f64 {
     if azimuth_deg >= 359.95 { 0.0 } else { azimuth_deg }
 }
 
-/// An angle in degrees without the noise beyond the sixth decimal.
+/// Returns an angle in degrees, rounded to the sixth decimal.
 pub(super) fn degrees(value: f64) -> f64 {
     rounded(value, 1e6)
 }

@@ -21,15 +21,16 @@ use crate::{
     station::AntennaId,
 };
 
-/// A schedule with the names of what is in it.
+/// A schedule with the names of its antennas and satellites.
 pub struct PlanList<'a> {
     pub schedule: &'a Schedule,
-    /// By catalog number.
+    /// Names of satellites by catalog number.
     pub satellites: &'a BTreeMap<u32, String>,
     pub antennas: &'a BTreeMap<AntennaId, String>,
-    /// Says why a pass is left out.
+    /// Function that words the reason why a pass is left out.
     pub reason: &'a dyn Fn(&LeftOut) -> String,
-    /// The planned passes, ordered by AOS, and the search that found them: they identify events.
+    /// The planned passes, ordered by AOS, and the search that found them. They identify the
+    /// events.
     pub passes: &'a [ExportedPass<'a>],
     pub query: &'a PassQuery,
     /// Time stamp of the events.
@@ -57,14 +58,14 @@ struct Row<'a> {
     set_up_s: Option<f64>,
 }
 
-/// An entry, or a pass that is left out.
+/// An entry, or a pass that the schedule leaves out.
 enum Planned<'a> {
     Taken(&'a Entry),
     LeftOut(&'a LeftOut),
 }
 
 impl PlanList<'_> {
-    /// Writes the passes by AOS, taken or left out; a calendar has only what is taken.
+    /// Writes the passes by AOS, taken or left out. A calendar contains only the taken passes.
     pub fn write(&self, out: &mut impl Write, format: EventFormat) -> io::Result<()> {
         match format {
             EventFormat::Table => self.table(out),
@@ -74,7 +75,7 @@ impl PlanList<'_> {
         }
     }
 
-    /// All passes by AOS.
+    /// Returns all passes by AOS.
     fn planned(&self) -> Vec<Planned<'_>> {
         let entries = self.schedule.entries.iter().map(Planned::Taken);
         let mut rows: Vec<Planned<'_>> =
@@ -206,7 +207,8 @@ impl PlanList<'_> {
     fn pass_id(&self, entry: &Entry, pass_ids: &[String]) -> String {
         let number = entry.pass.satellite;
         let half_s = 0.5 * seconds_between(entry.start, entry.end);
-        // AOS may differ: the passes may have been predicted again since the schedule was made.
+        // AOS may differ, because Azel may have predicted the passes again after it made the
+        // schedule.
         let middle = add_seconds(entry.start, half_s);
         let is_planned = |row: &ExportedPass<'_>| {
             row.satellite.elements.catalog_number() == number
@@ -218,8 +220,8 @@ impl PlanList<'_> {
     }
 }
 
-/// Time between the alarm of a calendar and the start of what it is for.
+/// Time between the alarm of a calendar event and its start.
 const ALARM_BEFORE: TimeDelta = TimeDelta::minutes(5);
 
-/// UTC in the basic form of iCalendar.
+/// UTC format in the basic form of iCalendar.
 const BASIC: &str = "%Y%m%dT%H%M%SZ";

@@ -13,7 +13,7 @@ use crate::{
     plan::pass_report::TrackPoint,
 };
 
-/// A point of a track with its columns. New ones are added at the end.
+/// A point of a track with its columns. New columns go at the end.
 #[derive(Default, Serialize)]
 struct Point<'a> {
     antenna: Cow<'a, str>,
@@ -31,7 +31,7 @@ struct Point<'a> {
     across_deg: f64,
 }
 
-/// A pass with its report and what happened in it.
+/// A pass with its report and its events.
 #[derive(Serialize)]
 struct Pass<'a> {
     antenna: &'a str,
@@ -64,7 +64,8 @@ pub fn points(out: &mut impl Write, passes: &[OpenedPass]) -> io::Result<()> {
     write_rows(out, RowFormat::Csv, ("points", &[]), &Point::default(), points)
 }
 
-/// Writes the reports of these passes with their entries as JSON; `docs/record.md` tells the fields.
+/// Writes the reports of these passes with their entries as JSON; `docs/record.md` describes the
+/// fields.
 pub fn reports(out: &mut impl Write, passes: &[OpenedPass]) -> io::Result<()> {
     let passes = passes.iter().map(|opened| Pass {
         antenna: &opened.pass.antenna_name,

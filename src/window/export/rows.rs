@@ -9,23 +9,24 @@ use jiff::{Timestamp, fmt::temporal::DateTimePrinter};
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 
-/// Version of the fields of JSON. Fields are only ever added to a version.
+/// Version of the JSON fields. A version only ever gains fields.
 pub const FORMAT_VERSION: u32 = 1;
-/// Number of rows that are made and then written.
+/// Number of rows that Azel makes before it writes them.
 const AT_ONCE: usize = 1 << 12;
 /// Number of rows that one thread takes at a time.
 const CHUNK: usize = 256;
 
-/// The form of rows for programs.
+/// A row format for programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RowFormat {
     Csv,
-    /// An object with `format_version` and the rows, one a line.
+    /// An object with `format_version` and the rows, one row a line.
     Json,
 }
 
 impl RowFormat {
-    /// A text that others wrote. In comma-separated values no spreadsheet takes it for a formula.
+    /// Returns a text from an external source. CSV needs an escape so that no spreadsheet treats
+    /// the text as a formula.
     ///
     /// Source: OWASP, "CSV Injection".
     pub fn text(self, text: &str) -> Cow<'_, str> {
@@ -36,7 +37,7 @@ impl RowFormat {
         }
     }
 
-    /// These rows, each in a line; in JSON each with a comma before it.
+    /// Formats these rows, one row a line; in JSON a comma precedes each row.
     fn lines<R: Serialize>(self, rows: impl IntoIterator<Item = R>) -> io::Result<Vec<u8>> {
         match self {
             Self::Csv => {
@@ -59,7 +60,7 @@ impl RowFormat {
     }
 }
 
-/// A time in RFC 3339, UTC, with milliseconds.
+/// A time as RFC 3339, UTC, with milliseconds.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Time(pub Timestamp);
 
@@ -69,7 +70,7 @@ impl Serialize for Time {
     }
 }
 
-/// The nearest millisecond; half of one is rounded away from 1970.
+/// Rounds to the nearest millisecond; halves round away from 1970.
 pub(super) fn to_millisecond(time: Timestamp) -> Timestamp {
     let nanoseconds = time.subsec_nanosecond();
     let milliseconds = (nanoseconds.abs() + 500_000) / 1_000_000 * nanoseconds.signum();
@@ -77,7 +78,8 @@ pub(super) fn to_millisecond(time: Timestamp) -> Timestamp {
     Timestamp::from_millisecond(since_1970).unwrap_or(time)
 }
 
-/// A time in RFC 3339, UTC, with these decimals of a second; further ones are cut off.
+/// Returns a time as RFC 3339, UTC, with `DECIMALS` decimals of a second; further decimals are cut
+/// off.
 pub(super) fn rfc3339<const DECIMALS: u8>(time: Timestamp) -> String {
     let mut text = String::with_capacity(32);
     // Appending to a string cannot fail.
@@ -85,13 +87,13 @@ pub(super) fn rfc3339<const DECIMALS: u8>(time: Timestamp) -> String {
     text
 }
 
-/// Rounds to the nearest multiple of one divided by `parts`.
+/// Rounds to the nearest multiple of 1 / `parts`.
 pub fn rounded(value: f64, parts: f64) -> f64 {
     // Adding zero makes a negative zero positive.
     (value * parts).round() / parts + 0.0
 }
 
-/// The original error of the output: its kind distinguishes a reader that has stopped from a full disk.
+/// Returns the original error of the output. Its kind distinguishes a closed pipe from a full disk.
 fn io_error(error: csv::Error) -> io::Error {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => error,
@@ -99,8 +101,8 @@ fn io_error(error: csv::Error) -> io::Error {
     }
 }
 
-/// Writes `rows` in their order. The columns of CSV are the fields of `columns`. JSON is an object with
-/// `format_version`, the fields of `fields`, and the rows under `name`.
+/// Writes `rows` in their order. The columns of CSV are the fields of `columns`. JSON is an object
+/// with `format_version`, the fields of `fields`, and the rows under `name`.
 pub fn write_rows<R: Serialize>(
     out: &mut impl Write,
     format: RowFormat,
@@ -116,9 +118,9 @@ pub fn write_rows<R: Serialize>(
     write_lines(out, format, (name, fields), columns, texts)
 }
 
-/// Writes a row for each of `items`, in their order. `make` makes the rows of some hundred items, in
-/// the threads of the rayon pool in which this is called; some thousand are held as text. The rest as
-/// for [`write_rows`].
+/// Writes a row for each of `items`, in their order. `make` makes the rows of some hundred items in
+/// the threads of the current rayon pool. Memory holds the text of some thousand rows. The other
+/// parameters are the same as in [`write_rows`].
 pub(super) fn write_many<T: Send + Sync, R: Serialize>(
     out: &mut impl Write,
     format: RowFormat,
@@ -161,7 +163,7 @@ fn write_lines<R: Serialize>(
             let mut is_first = true;
             for text in texts {
                 let text = text?;
-                // No comma stands before the first.
+                // No comma precedes the first row.
                 let skipped = usize::from(is_first && !text.is_empty());
                 is_first &= text.is_empty();
                 out.write_all(text.get(skipped..).unwrap_or_default())?;

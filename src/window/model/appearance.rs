@@ -1,11 +1,12 @@
-//! How the window looks.
+//! Appearance of the window.
 
 use serde::{Deserialize, Serialize};
 
 use super::ThemeName;
 use crate::astro::AzEl;
 
-/// Apparent elevation of the Sun's centre at sunrise and sunset: half its width.
+/// Apparent elevation of the Sun's centre at sunrise and sunset, degrees: minus half of the Sun's
+/// diameter.
 const SUNRISE_DEG: f64 = -0.267;
 
 /// The unit in which the window shows distances.
@@ -19,17 +20,17 @@ pub enum DistanceUnit {
     NauticalMiles,
 }
 
-/// How the window looks, as the operator has chosen.
+/// Appearance of the window, as the operator has set it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Appearance {
     pub theme: ThemeName,
-    /// The light theme is used while the Sun is up over the station.
+    /// `true` if the window uses the light theme while the Sun is above the horizon of the station.
     pub light_by_day: bool,
-    /// Size of everything; one of [`Self::SCALES_PERCENT`].
+    /// Scale of the whole window, percent; one of [`Self::SCALES_PERCENT`].
     pub scale_percent: u32,
-    /// The top bar has the local time beside UTC.
+    /// `true` if the top bar shows the local time next to UTC.
     pub local_time: bool,
-    /// Most decimals of the angles of an antenna and of the selected satellite; one of
+    /// Max number of decimals in the angles of an antenna and of the selected satellite; one of
     /// [`Self::ANGLE_DECIMALS`].
     pub angle_decimals: u32,
     pub distances: DistanceUnit,
@@ -51,26 +52,27 @@ impl Default for Appearance {
 impl Appearance {
     pub const SCALES_PERCENT: [u32; 5] = [100, 125, 150, 175, 200];
     pub const ANGLE_DECIMALS: [u32; 3] = [1, 2, 3];
-    /// Smallest view in which nothing is cut, points at 100 %.
+    /// Min size of a view in which nothing is cut off, points at 100 %.
     pub const MIN_VIEW: [f32; 2] = [960.0, 540.0];
-    /// Below this, letters are no longer legible.
+    /// Min zoom factor at which text is legible.
     pub const MIN_ZOOM: f32 = 0.5;
 
-    /// The factor by which everything is drawn larger in a view of this size, points at 100 %: the
-    /// operator's scale, or less where it would cut something off.
+    /// Returns the zoom factor for a view of this size, points at 100 %. This is the operator's
+    /// scale, or less if that scale would cut something off.
     pub fn zoom(self, [width, height]: [f32; 2]) -> f32 {
         let [min_width, min_height] = Self::MIN_VIEW;
         let fitting = (width / min_width).min(height / min_height);
         (self.scale_percent as f32 / 100.0).min(fitting).max(Self::MIN_ZOOM)
     }
 
-    /// The theme to use while the Sun is there.
+    /// Returns the theme for this direction of the Sun.
     pub fn theme_under(self, sun: Option<AzEl>) -> ThemeName {
         let is_day = sun.is_some_and(|sun| sun.elevation_deg() > SUNRISE_DEG);
         match self.theme {
             theme if !self.light_by_day => theme,
             _ if is_day => ThemeName::Light,
-            // By night another one is wanted, even where the light one was used so far.
+            // At night the window needs a dark theme, even if the operator has chosen the light
+            // one.
             ThemeName::Light => ThemeName::Dark,
             theme => theme,
         }

@@ -1,5 +1,5 @@
-//! The catalog as a table: which objects it shows and in which order, and their next passes.
-//! Worked out on a thread, when something it depends on has changed.
+//! The catalog as a table: the objects shown, their order and their next passes. A thread
+//! recomputes the table when an input has changed.
 
 use std::{cmp::Ordering, collections::HashMap, sync::Arc};
 
@@ -17,15 +17,15 @@ use crate::{
     station::Station,
 };
 
-/// Age from which elements count as old, whatever their orbit.
+/// Age above which elements count as old, seconds, for every orbit.
 pub const OLD_S: f64 = 7.0 * DAY_S;
-/// Hours ahead in which a next pass is searched for.
+/// Time ahead in which Azel searches for next passes, hours.
 pub const NEXT_PASSES_H: u32 = 24;
-/// Time after which the search for next passes runs again.
+/// Time after which the search for next passes runs again, seconds.
 pub const NEXT_PASSES_STALE_S: f64 = 60.0;
-/// Passes kept of each satellite: the first may be over before the search runs again.
+/// Number of passes kept for each satellite. The first may end before the search runs again.
 const PASSES_AHEAD: usize = 2;
-/// A pass under way began at most so long ago, except of satellites that hardly move.
+/// Max time since the start of a current pass, seconds, except for satellites that hardly move.
 const LOOK_BACK_S: f64 = 3600.0;
 
 /// Objects among which the table searches.
@@ -36,17 +36,17 @@ pub enum Subset {
     Favourites,
     /// Objects of one source.
     Group(String),
-    /// Objects of a group that the operator has made, by its name.
+    /// Name of a group that the operator has made.
     Own(String),
     /// Objects whose elements are older than [`OLD_S`].
     Old,
 }
 
-/// A column of the table, by which it can be sorted.
+/// A column of the table; the operator can sort by it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Column {
-    /// Favourites by priority, before the others.
+    /// Favourites by priority, before all other objects.
     #[default]
     Star,
     Name,
@@ -56,13 +56,13 @@ pub enum Column {
     /// Heights of apogee and perigee.
     Heights,
     Age,
-    /// The source of the elements in use.
+    /// Source of the elements in use.
     From,
     NextPass,
     MaxElevation,
 }
 
-/// Search, filter and order of the rows that the table is to show.
+/// Search, filter and order of the rows.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Question {
     pub search: String,
@@ -71,7 +71,7 @@ pub struct Question {
     pub is_descending: bool,
 }
 
-/// Everything that the rows depend on.
+/// All inputs of the rows.
 #[derive(Debug, Clone)]
 pub struct Inputs {
     pub question: Question,
@@ -84,13 +84,13 @@ pub struct Inputs {
 #[derive(Debug, Clone)]
 pub struct Answer {
     pub inputs: Inputs,
-    /// Catalog numbers, in their order.
+    /// Catalog numbers in the order of the rows.
     pub rows: Arc<[u32]>,
-    /// Objects of the whole catalog whose elements are old.
+    /// Number of objects with old elements in the whole catalog.
     pub old: usize,
 }
 
-/// The next pass of every satellite that has one which reaches the elevation floor.
+/// The next pass of every satellite with a pass that reaches the elevation floor.
 #[derive(Debug)]
 pub struct NextPasses {
     pub key: NextKey,
@@ -108,21 +108,21 @@ pub struct NextKey {
     floor: Angle,
 }
 
-/// The table with what was asked last.
+/// The table and its current question.
 #[derive(Default)]
 pub struct CatalogTable {
     pub question: Question,
-    /// The last rows, kept until the next ones.
+    /// The last rows, kept until the next rows are ready.
     pub answer: Option<Answer>,
     pub next: Option<Arc<NextPasses>>,
-    /// Catalog number of the object that is shown in detail.
+    /// Catalog number of the object shown in detail.
     pub inspected: Option<u32>,
-    /// The detail of an object, kept until the next one.
+    /// The detail of an object, kept until the next detail is ready.
     pub detail: Option<ObjectDetail>,
 }
 
 impl CatalogTable {
-    /// Returns the inputs from which the rows have to be computed.
+    /// Returns the inputs for computing the rows.
     pub fn inputs(&self, catalog: &Arc<Catalog>, station: &Arc<Station>) -> Inputs {
         Inputs {
             question: self.question.clone(),
@@ -165,7 +165,7 @@ impl NextKey {
 }
 
 impl NextPasses {
-    /// Searches for the first passes of every satellite that are not over at `now`.
+    /// Searches for the first passes of every satellite that end after `now`.
     pub fn search(key: NextKey, now: Timestamp, cancelled: &(dyn Fn() -> bool + Sync)) -> Self {
         let all: Vec<&Elements> = key.catalog.iter().collect();
         let prepared: Vec<(u32, Propagator)> = all
@@ -201,16 +201,16 @@ impl NextPasses {
         Self { key, made_at: now, by_satellite }
     }
 
-    /// The pass of a satellite that is under way at `now` or comes next.
+    /// Returns the pass of a satellite that is current at `now` or comes next.
     pub fn get(&self, number: u32, now: Timestamp) -> Option<NextPass> {
         self.by_satellite.get(&number)?.iter().copied().find(|pass| pass.los > now)
     }
 }
 
-/// The order of an object in a column; `None` stands last in both directions.
+/// Sort key of an object in a column; `None` sorts last in both directions.
 type Rank = Option<(f64, f64)>;
 
-/// Works out the rows for `inputs` at `now`.
+/// Computes the rows for `inputs` at `now`.
 pub fn arrange(inputs: Inputs, now: Timestamp) -> Answer {
     let Inputs { question, catalog, station, .. } = &inputs;
     let is_old = |elements: &&Elements| elements.epoch_distance_s(now) > OLD_S;
@@ -245,7 +245,8 @@ pub fn arrange(inputs: Inputs, now: Timestamp) -> Answer {
     Answer { inputs, rows, old }
 }
 
-/// Names and designators hold the text in any case, numbers begin with it.
+/// Returns `true` if the name or designator contains the text in any case, or the catalog number
+/// begins with it.
 fn is_found(elements: &Elements, needle: &str) -> bool {
     elements.name().to_lowercase().contains(needle)
         || elements.catalog_number().to_string().starts_with(needle)
@@ -300,7 +301,7 @@ fn by_number(
     ranked.into_iter().map(|(_, number)| number).collect()
 }
 
-/// Objects without a text come last in both directions.
+/// Sorts objects by a text. Objects without a text come last in both directions.
 fn by_text(
     found: Vec<&Elements>,
     is_descending: bool,

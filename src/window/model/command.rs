@@ -1,4 +1,4 @@
-//! Commands of the views, carried out once a frame after everything is drawn.
+//! Commands of the views. The window carries them out once a frame, after it has drawn all views.
 
 use std::{path::PathBuf, sync::Arc};
 
@@ -22,107 +22,107 @@ use crate::{
     station::AntennaId,
 };
 
-/// A command of a view: for the station, past it, or for the window itself.
+/// A command of a view to the station, to the drivers directly, or to the window.
 #[derive(Debug, Clone, PartialEq)]
 pub enum UiCommand {
-    /// Stop every antenna that is connected or was moved from here.
+    /// STOP for every antenna that is connected or that this window has moved.
     Stop,
-    /// Stop this antenna, also where that takes a connection.
+    /// STOP for this antenna, even if Azel has to connect first.
     StopAntenna(AntennaId),
     Station(contract::Command),
-    /// Close the window at once.
+    /// Immediate closing of the window.
     Close,
-    /// Change the station of the window.
+    /// Change to another station.
     ChooseStation(NextStation),
-    /// Open a file that the operator chooses in the dialog of the desktop: change to its station, or
-    /// offer its elements.
+    /// Choice of a file in the desktop dialog. Azel changes to its station or offers its elements.
     ChooseFile(OpenedFile),
-    /// Open the file whose path the operator has typed.
+    /// File to open, whose path the operator has entered.
     OpenFile(OpenedFile, PathBuf),
-    /// Change to the station that the operator was asked about.
+    /// Change to the station that the operator has confirmed.
     ChangeNow,
-    /// Stay with the station in the window.
+    /// Decision to keep the current station in the window.
     KeepStation,
     SelectPass(PassListKey),
-    /// Ask whether the selected antenna is to track this pass; the second step of the views
-    /// takes it.
+    /// Question whether the selected antenna should track this pass. The second step of the views
+    /// asks it.
     AskToTrack(PassListKey),
-    /// Show the present or next pass of this satellite.
+    /// Selection of the current or next pass of this satellite.
     SelectSatellite(u32),
-    /// Select the antenna at this place.
+    /// Selection of the antenna at this index.
     SelectAntenna(usize),
-    /// List the passes of these satellites.
+    /// Satellites whose passes the list shows.
     SetScope(Scope),
-    /// List the passes of this many hours from now on.
+    /// Time span of the list of passes from now on, hours.
     SetSpan(u32),
     Show(View),
-    /// Use this theme, whatever the Sun does.
+    /// Theme to use regardless of the Sun.
     SetTheme(ThemeName),
     SetAppearance(Appearance),
-    /// Show and sound an example of an alarm or a reminder.
+    /// Example of an alarm or a reminder to show and play.
     TryNotice(Sound),
-    /// Write these lines of the console to a file.
+    /// Lines of the console to write to a file.
     SaveLog(Vec<Arc<ConsoleLine>>),
-    /// Show these objects in the table of the catalog.
+    /// Objects to show in the table of the catalog.
     ShowCatalog(catalog_table::Question),
-    /// Read these files and texts, which the operator holds over the window or has dropped.
+    /// Files and texts to read, which the operator drags over the window or has dropped.
     OfferElements {
         offers: Vec<Offer>,
         is_dropped: bool,
     },
-    /// Drop what is offered as elements.
+    /// Rejection of the offered elements.
     LeaveElements,
-    /// Show this object in detail in the Elements view.
+    /// Object to show in detail in the Elements view.
     InspectObject(u32),
-    /// Save this to a file that the operator names in the dialog of the desktop.
+    /// Export to a file that the operator names in the desktop dialog.
     Save(Export),
-    /// Save this to a file whose path the operator has typed.
+    /// Export to a file whose path the operator has entered.
     SaveAs(Export, TypedPath),
-    /// Work out the effects of keep-outs on the passes to come.
+    /// Question about the effects of keep-outs on the predicted passes.
     ShowEffects(Box<obstacles::Question>),
-    /// Work out how much of the passes to come an antenna tracks.
+    /// Question about the share of the predicted passes that an antenna tracks.
     ShowTracked(Box<mounts::Question>),
-    /// Work out the passes to come over an edited site.
+    /// Question about the predicted passes over an edited site.
     ShowMoved(Box<sites::Question>),
-    /// Rehearse the plan, or this pass of it, against simulated units.
+    /// Rehearsal of the whole plan or of this pass, against simulated units.
     Rehearse(Option<PassListKey>),
-    /// Cancel the rehearsal, or forget the last one.
+    /// End of the current rehearsal, or removal of the last result.
     EndRehearsal,
-    /// Show a stretch of the record again, from this moment on.
+    /// Replay of this stretch of the record from this time on.
     BeginReplay(Stretch, Timestamp),
-    /// Change the replay that is shown.
+    /// Change of the current replay.
     Replay(ReplayCommand),
-    /// Show the present again.
+    /// Return to the live station.
     LeaveReplay,
-    /// Show no more why a replay has ended.
+    /// Dismissal of the message about the end of a replay.
     CloseReplayEnd,
-    /// Show this folder in the file manager of the desktop.
+    /// Folder to open in the desktop file manager.
     OpenFolder(PathBuf),
-    /// Read a horizon mask from this file into the form.
+    /// File of a horizon mask to import into the form.
     ImportMask(PathBuf),
-    /// Write this horizon mask to a file.
+    /// Horizon mask to export to a file.
     ExportMask(Box<HorizonMask>),
 }
 
 impl UiCommand {
-    /// A command for the session of an antenna.
+    /// Returns the command for the session of an antenna.
     pub fn antenna(antenna: AntennaId, command: driver::Command) -> Self {
         Self::Station(contract::Command::Antenna(antenna, command))
     }
 
-    /// Tracks the selected pass with the selected antenna.
+    /// Returns the command that makes the selected antenna track the selected pass.
     pub fn track_selected(model: &Model) -> Option<Self> {
         let pass = model.selected_pass().map(PredictedPass::key)?;
         let antenna = model.antenna()?.id();
         Some(Self::Station(contract::Command::Track { antenna, pass, is_agreed: false }))
     }
 
-    /// Returns `true` if a STOP in the same frame voids the command.
+    /// Returns `true` if a STOP in the same frame cancels the command.
     pub fn is_void_after_stop(&self) -> bool {
         matches!(self, Self::Station(command) if command.row().void_after_stop)
     }
 
-    /// Returns `true` if a replay takes the command, because it changes nothing outside the window.
+    /// Returns `true` if the command also works in a replay, because it changes nothing outside the
+    /// window.
     pub fn is_for_replay(&self) -> bool {
         match self {
             Self::Station(command) => command.row().in_replay,

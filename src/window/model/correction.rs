@@ -15,7 +15,7 @@ use crate::{
     station::{AntennaId, OffsetsSubject},
 };
 
-/// A correction that the operator may take over.
+/// A correction that the operator may accept.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Correction {
     pub antenna: AntennaId,
@@ -24,20 +24,19 @@ pub struct Correction {
 
 #[derive(Debug, Clone, PartialEq)]
 pub enum CorrectionMethod {
-    /// Values for settings of the unit, by their keys and that of their group.
+    /// Values for settings of the unit, by the key of the setting and the key of its group.
     Settings {
         group: &'static str,
         values: Vec<(&'static str, Value)>,
-        /// One of them is a time, whose sign no document gives.
+        /// `true` if one of the settings is a time; no document gives the sign of that setting.
         has_time: bool,
     },
-    /// Offsets with which the antenna begins its tracks, in place of those that are remembered.
+    /// Offsets with which the antenna begins its tracks, in place of the remembered ones.
     Remembered(TrackOffsets),
 }
 
-/// Returns a correction for the causes of `explanation` in the passes to come, as far as anything
-/// here corrects them; `None` where nothing does, where they seem to be corrected already, and in a
-/// replay.
+/// Returns a correction for the causes of `explanation` that a setting can correct. `None` if no
+/// setting corrects a cause, if an earlier correction seems to cover it, and in a replay.
 pub fn correction(
     model: &Model,
     pass: &RecordedPass,
@@ -53,8 +52,8 @@ pub fn correction(
         .map(|method| Correction { antenna: antenna.id(), method })
 }
 
-/// The offsets with which the pass was flown, less its error: the same however often it is taken
-/// over.
+/// Returns the offsets of the pass less its error. Accepting the correction again gives the same
+/// result.
 fn remembered(
     model: &Model,
     antenna: &AntennaModel,
@@ -77,11 +76,11 @@ fn remembered(
         .then_some(CorrectionMethod::Remembered(offsets))
 }
 
-/// An offset below this changes no setting, degrees.
+/// Smallest offset that changes a setting, degrees.
 const MIN_DEG: f64 = 0.005;
 
-/// Returns the values that the unit holds, less the error. `None` after a write since the pass,
-/// which may correct it already.
+/// Returns the current settings of the unit less the error. `None` after a write since the pass,
+/// because that write may already contain the correction.
 fn settings(
     antenna: &AntennaModel,
     pass: &RecordedPass,
@@ -89,7 +88,7 @@ fn settings(
 ) -> Option<CorrectionMethod> {
     let fields = antenna.variant().track_offsets?;
     let state = antenna.snapshot.state.groups.get(fields.group)?;
-    // A session takes back what it adds for a pass.
+    // A session removes its own additions after the pass.
     let is_later = |written: &Arc<Written>| {
         written.time > pass.report.start && !is_ticket_of_session(written.change.ticket)
     };

@@ -1,4 +1,4 @@
-//! Spans of day and night.
+//! Computation of the spans of day and night.
 
 use jiff::Timestamp;
 
@@ -7,24 +7,25 @@ use crate::astro::{
     time::{add_seconds, seconds_between},
 };
 
-/// Time before now, seconds.
+/// Time before now at which the spans begin, seconds.
 const PAST_S: f64 = 3600.0;
-/// Between two looks at the Sun; a change between them is then found to the minute, seconds.
+/// Interval between two computed positions of the Sun, seconds. A search then finds each change to
+/// the minute.
 const STEP_S: f64 = 600.0;
 const EXACT_S: f64 = 60.0;
 
-/// A stretch of day or of night.
+/// A period of day or of night.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SunSpan {
-    /// Sunrise or sunset, except for the first span.
+    /// Time of sunrise or sunset, except in the first span.
     pub start: Timestamp,
     pub end: Timestamp,
-    /// `false` for night.
+    /// `true` for day, `false` for night.
     pub up: bool,
 }
 
-/// Day and night from an hour before `now` to `ahead_s` after it, to the minute. A day or a night
-/// of less than ten minutes may be missed.
+/// Returns day and night from an hour before `now` to `ahead_s` after it, to the minute. The search
+/// may miss a day or a night of less than ten minutes.
 pub fn spans(site: Site, now: Timestamp, ahead_s: f64) -> Vec<SunSpan> {
     let is_up =
         |time: Timestamp| sun_moon::sun(site.airless(), time).elevation_deg() > sun_moon::RISE_DEG;
@@ -45,8 +46,8 @@ pub fn spans(site: Site, now: Timestamp, ahead_s: f64) -> Vec<SunSpan> {
     spans
 }
 
-/// When what `is_same` tells ends, between a time at which it holds and a later one at which it
-/// does not.
+/// Returns the time at which `is_same` turns false. It is true at `same` and false at the later
+/// time `other`.
 fn change(
     mut same: Timestamp,
     mut other: Timestamp,
@@ -69,7 +70,7 @@ mod tests {
 
     #[test]
     fn the_sun_sets_in_istanbul_when_the_almanac_says() {
-        // 2026-08-12: sunset 20:10 local time, UTC+3, to a minute or two.
+        // 2026-08-12: sunset at 20:10 local time, UTC+3, to a minute or two.
         let site = Site::new(41.02, 29.17, 100.0).unwrap();
         let noon: Timestamp = "2026-08-12T10:00:00Z".parse().unwrap();
         let spans = spans(site, noon, 25.0 * 3600.0);

@@ -1,5 +1,5 @@
-//! Effects of edited settings on the passes of the favourites in the next 48 hours, beside those of
-//! the settings as saved. Worked out on a thread.
+//! Effects of edited settings on the passes of the favourites in the next 48 hours, compared with
+//! the saved settings. A thread computes them.
 
 pub mod mounts;
 pub mod obstacles;
@@ -9,25 +9,25 @@ use std::{sync::Arc, time::Duration};
 
 use crate::{clock::Instant, contract::passes::PredictedPass, plan::Sample};
 
-/// Time without a change before the work begins.
+/// Time without a change before the computation starts.
 pub const DEBOUNCE: Duration = Duration::from_millis(300);
 
-/// A question: settings as saved and as edited, which are compared over passes.
+/// A question: saved and edited settings to compare over the passes.
 pub trait Compare: Clone + PartialEq + Send + 'static {
     type Tally: Send + 'static;
-    /// Interval between the samples of a track that are evaluated, in samples.
+    /// Interval between the evaluated samples of a track, in samples.
     const EVERY: usize;
 
-    /// Returns the tallies of the passes by the settings as saved, and as edited.
+    /// Returns the tallies of the passes with the saved and with the edited settings.
     fn tallies(&self, ways: &[PassTrack]) -> [Self::Tally; 2];
 }
 
 /// The track of a satellite through one pass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PassTrack {
-    /// Catalog number.
+    /// Catalog number of the satellite.
     pub number: u32,
-    /// In the order of time.
+    /// Samples in order of time.
     pub samples: Vec<Sample>,
 }
 
@@ -37,11 +37,11 @@ pub struct Effect<Q: Compare> {
     pub question: Q,
     /// The passes of the next 48 hours.
     pub ways: Arc<[PassTrack]>,
-    /// As saved.
+    /// Tally with the saved settings.
     pub before: Q::Tally,
-    /// As edited.
+    /// Tally with the edited settings.
     pub after: Q::Tally,
-    /// Edition of the list of passes.
+    /// Revision of the list of passes.
     pub revision: u64,
 }
 
@@ -56,7 +56,7 @@ impl<Q: Compare> Effect<Q> {
 pub struct Effects<Q: Compare> {
     /// The last answer, kept until the next one so that the view does not flicker.
     pub effect: Option<Effect<Q>>,
-    /// The question, and the time it was asked first.
+    /// The question, and the time when a view first asked it.
     pub requested: Option<(Q, Instant)>,
 }
 
@@ -67,7 +67,7 @@ impl<Q: Compare> Default for Effects<Q> {
 }
 
 impl<Q: Compare> Effects<Q> {
-    /// Asks a question. The work begins once no other was asked for a while.
+    /// Asks a question. The computation starts once no other question has come for [`DEBOUNCE`].
     pub fn ask(&mut self, question: Q, now: Instant) {
         if self.requested() != Some(&question) {
             self.requested = Some((question, now));
@@ -79,7 +79,7 @@ impl<Q: Compare> Effects<Q> {
     }
 }
 
-/// The tracks of all passes, or of those that were done before cancellation.
+/// Returns the tracks of all passes, or the tracks finished before cancellation.
 pub fn ways<Q: Compare>(
     passes: &[PredictedPass],
     cancelled: &dyn Fn() -> bool,

@@ -9,15 +9,15 @@ use crate::{
     export::{EventFormat, ListFormat, RowFormat},
 };
 
-/// A file that was saved.
+/// A saved file, with the objects left out of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SavedFile {
     pub path: PathBuf,
-    /// Objects that its form cannot carry.
+    /// Number of objects that the file format cannot represent.
     pub left_out: usize,
 }
 
-/// The form of a file of elements.
+/// The format of a file of elements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ElementForm {
     Tle,
@@ -25,12 +25,12 @@ pub enum ElementForm {
     OmmCsv,
 }
 
-/// The form of a recorded pass.
+/// The format of a recorded pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ReportFormat {
-    /// The points of its track.
+    /// The points of the track.
     Csv,
-    /// Its report and what happened in it.
+    /// The report of the pass and its events.
     Json,
     /// A page to print.
     Html,
@@ -40,7 +40,7 @@ pub enum ReportFormat {
 pub enum Export {
     /// The elements in use of these objects, by catalog number.
     Elements { numbers: Arc<[u32]>, form: ElementForm },
-    /// These passes.
+    /// A list of these passes.
     Passes { keys: Arc<[PassListKey]>, format: EventFormat },
     /// Azimuth, elevation and range through one pass.
     Looks { pass: PassListKey, format: ListFormat },
@@ -48,9 +48,8 @@ pub enum Export {
     Schedule { format: EventFormat },
     /// The page to print for the next shift.
     HandOverSheet,
-    /// The pass of the record that is shown.
+    /// The recorded pass that the view shows.
     Report { format: ReportFormat },
-    /// The passes of the record that `query` finds, whose AOS is from the first of these days to the
-    /// last.
+    /// The recorded passes that `query` finds, with AOS from the first to the last of these days.
     Days { query: PassQuery, first: Date, last: Date, format: RowFormat },
 }

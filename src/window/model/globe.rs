@@ -1,4 +1,5 @@
-//! The satellites over the globe, for the map: recomputed once a second, their tracks less often.
+//! Satellites over the globe, for the map. Azel updates them once a second and their tracks less
+//! often.
 
 use std::{collections::HashMap, sync::Arc};
 
@@ -15,34 +16,34 @@ use crate::{
     station::Station,
 };
 
-/// Part of the track of the selected satellite that lies behind it, minutes.
+/// Past part of the ground track of the selected satellite, minutes.
 pub const FLOWN_MIN: u32 = 50;
-/// Part of the track of the selected satellite that lies ahead of it, minutes.
+/// Future part of the ground track of the selected satellite, minutes.
 pub const AHEAD_MIN: u32 = 150;
-/// Part of the track of any other satellite that lies ahead of it: one orbit of a low one, minutes.
+/// Future part of the ground track of any other satellite, minutes: one orbit of a low satellite.
 const OTHERS_AHEAD_MIN: u32 = 100;
 /// Steps of the tracks of the selected satellite and of the others, seconds.
 const STEP_S: u32 = 20;
 const OTHERS_STEP_S: u32 = 60;
-/// Tracks of satellites that are not selected and are computed in one second: the frame must not
-/// wait for those of a long list.
+/// Max number of unselected satellites whose tracks Azel computes per second. The frame must not
+/// wait for the tracks of a long list.
 const TRACKS_AT_ONCE: usize = 8;
-/// Time in which a satellite shows which way it goes, seconds.
+/// Time over which the heading of a satellite is measured, seconds.
 const HEADING_S: f64 = 1.0;
-/// A satellite that is slower over the ground goes nowhere, degrees a second.
+/// Min ground speed of a satellite with a heading, degrees a second.
 const STANDS_BELOW_DEG_S: f64 = 0.000_5;
 
 /// The globe at one moment.
 #[derive(Debug, Default)]
 pub struct Globe {
-    /// The favourites, the selected satellite and those that antennas track, the highest over the
+    /// The favourites, the selected satellite and the tracked satellites, the highest over the
     /// station first.
     pub satellites: Vec<GlobeSatellite>,
-    /// The point with the Sun in its zenith.
+    /// Ground point with the Sun in the zenith.
     pub subsolar: Option<GroundPoint>,
-    /// The part that has night.
+    /// Part of the globe with night.
     pub night: Option<Cap>,
-    /// The elevation from which on a satellite is up, at the station and in the footprints.
+    /// Elevation above which a satellite counts as up, at the station and in the footprints.
     pub aos_elevation: Angle,
     tracks: HashMap<u32, KeptTrack>,
     made_of: Option<MadeOf>,
@@ -52,40 +53,40 @@ pub struct Globe {
 #[derive(Debug, Clone)]
 pub struct GlobeSatellite {
     pub satellite: Arc<ListedSatellite>,
-    /// Its pass is selected, or was until it was over.
+    /// `true` if a pass of the satellite is or was last selected.
     pub is_selected: bool,
     pub is_favourite: bool,
-    /// An antenna tracks it.
+    /// `true` if an antenna tracks the satellite.
     pub is_tracked: bool,
     pub below: SubPoint,
-    /// Inertial.
+    /// Inertial speed, km/s.
     pub speed_km_s: f64,
-    /// From the station.
+    /// Look angles from the station.
     pub look: LookAngles,
-    /// The ground from which it is seen at the AOS elevation or higher.
+    /// Ground area from which the satellite is seen at the AOS elevation or higher.
     pub footprint: Cap,
-    /// Above the AOS elevation and clear of the horizon mask at the station.
+    /// `true` if the satellite is above the AOS elevation and clear of the station's horizon mask.
     pub is_up: bool,
-    /// Direction over the ground, from north over east; `None` if it stands still.
+    /// Direction over the ground, clockwise from north; `None` if the satellite hardly moves.
     pub heading: Option<Angle>,
     pub is_sunlit: bool,
-    /// The pass that is under way or comes next.
+    /// The current or next pass.
     pub next: Option<NextPass>,
-    /// The ground track: of the selected satellite also what it has flown. Empty until computed.
+    /// The ground track ahead; for the selected satellite also its past part. Empty until computed.
     pub track: Arc<[TrackPoint]>,
 }
 
-/// A pass in short.
+/// A summary of a pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NextPass {
     pub aos: Timestamp,
     pub los: Timestamp,
     pub max_elevation: Angle,
-    /// The satellite neither rises nor sets within the list.
+    /// `true` if the satellite neither rises nor sets within the list.
     pub is_always_up: bool,
 }
 
-/// A side of the map.
+/// A direction on the map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MapDirection {
     North,
@@ -102,7 +103,7 @@ struct KeptTrack {
     points: Arc<[TrackPoint]>,
 }
 
-/// Whatever a change of which is shown at once.
+/// Inputs of the globe. The map shows a change of any of them immediately.
 #[derive(Debug, Clone)]
 struct MadeOf {
     second: i64,
@@ -143,8 +144,9 @@ impl Globe {
         self.satellites.iter().find(|satellite| satellite.is_selected)
     }
 
-    /// The next satellite on that side of the selected one, among those that `is_shown`; the
-    /// highest over the station if none is selected. Only a satellite with a pass can be selected.
+    /// Returns the next satellite on that side of the selected one, among the satellites that
+    /// `is_shown` accepts. Returns the highest over the station if none is selected. Only a
+    /// satellite with a pass can be selected.
     pub fn nearest(
         &self,
         direction: MapDirection,
@@ -173,7 +175,7 @@ impl Globe {
             .map(|(_, number)| number)
     }
 
-    /// Recomputes the globe if the second or something else that it shows has changed.
+    /// Recomputes the globe if the second or another input has changed.
     pub(super) fn refresh(&mut self, model: &Model) {
         let made_of = MadeOf::new(model);
         if self.made_of.as_ref().is_some_and(|before| before.is_same(&made_of)) {
@@ -225,7 +227,7 @@ impl Globe {
         let look = state.look_from(station.site, now);
         let mask = station.horizon_mask.as_ref();
         let skyline = mask.map_or(Angle::ZERO, |mask| mask.elevation_at(look.direction.azimuth));
-        // Up from AOS to LOS, which need not be apparent.
+        // A satellite counts as up from AOS to LOS, which may use the geometric elevation.
         let of_pass = |direction| station.site.pass_direction(direction).elevation;
         let elevation = of_pass(state.look_from(station.site.airless(), now).direction);
         let lowest = self.aos_elevation.radians().max(skyline.radians());
@@ -246,7 +248,7 @@ impl Globe {
         })
     }
 
-    /// Computes the tracks whose time has come, that of the selected satellite first.
+    /// Computes the tracks that are due, the selected satellite's track first.
     fn refresh_tracks(&mut self, made_of: &MadeOf, model: &Model) {
         let satellites = listed(made_of, model);
         let numbers: Vec<u32> =
@@ -269,8 +271,8 @@ impl Globe {
 }
 
 impl KeptTrack {
-    /// The track that is wanted now, without its points. It begins at a full step, so that it is
-    /// kept for a while.
+    /// Returns the required track without its points. The track begins at a full step, so that it
+    /// stays valid for a while.
     fn empty(satellite: &ListedSatellite, is_selected: bool, now: Timestamp) -> Self {
         let (period_s, flown_s) = if is_selected {
             (i64::from(STEP_S), i64::from(FLOWN_MIN) * 60)
@@ -300,7 +302,7 @@ impl KeptTrack {
     }
 }
 
-/// The satellites of the map, each once, the selected one first.
+/// Returns the satellites of the map, each once, the selected one first.
 fn listed(made_of: &MadeOf, model: &Model) -> Vec<Arc<ListedSatellite>> {
     let mut listed: Vec<Arc<ListedSatellite>> = Vec::new();
     let chosen = made_of.selected.iter().chain(&made_of.tracked);

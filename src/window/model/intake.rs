@@ -1,11 +1,11 @@
-//! Files and texts that the operator holds over the window, drops, pastes or chooses. Azel says
-//! what they hold before it takes anything.
+//! Files and texts that the operator drags over the window, drops, pastes or chooses. Azel shows
+//! their contents before it takes anything.
 
 use std::{path::PathBuf, sync::Arc};
 
 use crate::orbit::{Catalog, Nothing, Refusal, read_element_bytes};
 
-/// Refused records that are listed one by one.
+/// Max number of refused records that are listed one by one.
 const LISTED: usize = 3;
 
 /// A file or a text that may hold elements.
@@ -15,48 +15,48 @@ pub enum Offer {
     Text(Arc<str>),
 }
 
-/// Offers, and the elements that they were found to hold.
+/// Offers and the elements found in them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Intake {
     pub offers: Vec<Offer>,
-    /// The operator has let go of the files; until then nothing can be chosen.
+    /// `true` once the operator has dropped the files; the operator can choose nothing earlier.
     pub is_dropped: bool,
-    /// In the order of the offers; `None` until all are read.
+    /// Results in the order of the offers; `None` until Azel has read all of them.
     pub judged: Option<Vec<Judged>>,
 }
 
 /// Contents of an offer, compared with the elements in use.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Judged {
-    /// The operating system refused.
+    /// Error message of the operating system, which refused to read the file.
     Unreadable(String),
     Nothing(Nothing),
     Elements(Counts),
 }
 
-/// Objects of an offer.
+/// Numbers of objects in an offer.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Counts {
-    /// Those that are not in the catalog.
+    /// Objects that are not in the catalog.
     pub new: usize,
-    /// Those whose set is newer than the one in use.
+    /// Objects whose set is newer than the set in use.
     pub newer: usize,
     pub same: usize,
     pub older: usize,
-    /// Refused records, the first few.
+    /// The first few refused records.
     pub refused: Vec<Refusal>,
     pub all_refused: usize,
 }
 
 impl Counts {
-    /// Objects that could be read.
+    /// Returns the number of objects that could be read.
     pub fn objects(&self) -> usize {
         self.new + self.newer + self.same + self.older
     }
 }
 
 impl Offer {
-    /// The name that is shown.
+    /// Returns the name for display.
     pub fn name(&self) -> String {
         match self {
             Self::File(path) => path.file_name().map_or_else(
@@ -69,7 +69,7 @@ impl Offer {
 }
 
 impl Judged {
-    /// Compares the elements in `bytes` with those in use.
+    /// Compares the elements in `bytes` with the elements in use.
     pub fn new(bytes: &[u8], in_use: Option<&Catalog>) -> Self {
         let report = read_element_bytes(bytes);
         if let Some(nothing) = report.nothing {
@@ -95,7 +95,7 @@ impl Judged {
         Self::Elements(counts)
     }
 
-    /// Returns `true` if there is anything to take.
+    /// Returns `true` if the offer has objects to take.
     pub fn is_usable(&self) -> bool {
         matches!(self, Self::Elements(counts) if counts.objects() > 0)
     }

@@ -1,5 +1,5 @@
-//! When antennas would join passes. A way round keep-outs takes long to find, so what was found is
-//! kept for the second.
+//! Times when antennas would join passes. The search for a path around keep-outs is slow, so Azel
+//! keeps each result for one second.
 
 use std::{
     collections::HashMap,
@@ -15,7 +15,7 @@ use crate::{
     station::AntennaId,
 };
 
-/// More than a list shows at once.
+/// Max number of kept results: more than a list shows.
 const MAX_JOININGS: usize = 200;
 
 type Found = HashMap<(AntennaId, PassListKey), (i64, Option<Joining>)>;
@@ -24,7 +24,8 @@ type Found = HashMap<(AntennaId, PassListKey), (i64, Option<Joining>)>;
 pub struct Joinings(Mutex<Found>);
 
 impl Joinings {
-    /// When the antenna would join the pass at `now`, by `find` or as it found before.
+    /// Returns when the antenna would join the pass at `now`. Calls `find` only if no result of
+    /// this second is kept.
     pub fn get_or_find(
         &self,
         antenna: AntennaId,
@@ -50,7 +51,8 @@ impl Joinings {
 }
 
 impl Model {
-    /// An antenna as it is planned for, from where it stands now; `None` if that is not known.
+    /// Returns the antenna as the planner needs it, starting from its current position; `None` if
+    /// the position is unknown.
     pub fn planned_from_here(&self, antenna: &AntennaModel) -> Option<PlannedAntenna> {
         let has_elevation = antenna.variant().capabilities.has_elevation();
         let measured = antenna.snapshot.state.measured.filter(|_| antenna.is_live())?;

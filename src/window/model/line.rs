@@ -12,7 +12,7 @@ use crate::{
 /// One line of the log.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ConsoleLine {
-    /// Number among the lines of all antennas.
+    /// Position among the lines of all antennas.
     pub position: u64,
     pub antenna: Arc<str>,
     pub recorded: Arc<Recorded>,
@@ -21,7 +21,7 @@ pub struct ConsoleLine {
 }
 
 impl ConsoleLine {
-    /// The line at `position` of all lines of all antennas.
+    /// Creates the line at `position` among the lines of all antennas.
     pub fn new(position: u64, antenna: Arc<str>, recorded: Arc<Recorded>) -> Self {
         let raw = pieces(&recorded.line.bytes).into_iter().fold(String::new(), |raw, piece| {
             raw + &match piece {
@@ -37,21 +37,21 @@ impl ConsoleLine {
         &self.recorded.line
     }
 
-    /// Returns `true` if `needle`, in lower case, is in the bytes, the meaning or the name of the
-    /// antenna.
+    /// Returns `true` if the bytes, the meaning or the name of the antenna contains `needle`, which
+    /// is in lower case.
     pub fn has(&self, needle: &str) -> bool {
         let texts = [self.raw.as_str(), &self.meaning.text, &self.antenna];
         texts.into_iter().any(|text| text.to_lowercase().contains(needle))
     }
 
-    /// Round trip, such as "34 ms".
+    /// Returns the round trip, such as "34 ms".
     pub fn round_trip(&self) -> Option<String> {
         let after = self.wire().reply_after?;
         Some(format!("{:.0} ms", after.as_secs_f64() * 1000.0))
     }
 
-    /// For the clipboard and for a file: UTC, antenna, direction, frame, round
-    /// trip and meaning, with tabs between them.
+    /// Returns the line for the clipboard and for a file: UTC, antenna, direction, frame, round
+    /// trip and meaning, separated by tabs.
     pub fn report(&self) -> String {
         let time_text = self.wire().time.to_zoned(TimeZone::UTC).strftime("%FT%T.%3fZ").to_string();
         let mut text =
@@ -62,7 +62,7 @@ impl ConsoleLine {
         text
     }
 
-    /// "sent" or "received"; empty for a missing reply.
+    /// Returns "sent" or "received"; empty for a missing reply.
     pub fn direction(&self) -> &'static str {
         match (self.wire().direction, self.wire().finding) {
             (_, Finding::NoReply { .. }) => "",
@@ -75,13 +75,13 @@ impl ConsoleLine {
 /// A part of a line.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Piece {
-    /// Printable characters.
+    /// Printable ASCII characters.
     Text(String),
     /// Name of an unprintable byte.
     Code(String),
 }
 
-/// The bytes split into printable text and names of unprintable bytes.
+/// Splits the bytes into printable text and names of unprintable bytes.
 pub fn pieces(bytes: &[u8]) -> Vec<Piece> {
     let mut pieces = Vec::new();
     for byte in bytes {
@@ -97,7 +97,7 @@ pub fn pieces(bytes: &[u8]) -> Vec<Piece> {
     pieces
 }
 
-/// The meaning of a line that the make has no words for.
+/// Returns a generic meaning for a line that the make does not explain.
 fn unnamed(direction: Direction, length: usize) -> Meaning {
     let kind = if direction == Direction::Sent { "Request" } else { "Reply" };
     let plural = if length == 1 { "" } else { "s" };
@@ -132,7 +132,7 @@ pub(crate) mod testing {
     use super::*;
     use crate::controller::satrak;
 
-    /// A good line at a second of the epoch.
+    /// Returns a valid line at a second of the epoch.
     pub(crate) fn wire(second: i64, direction: Direction, text: &str) -> WireLine {
         let bytes = format!("{text}\r\n").into_bytes();
         WireLine {

@@ -1,5 +1,5 @@
-//! Notices of alarms and reminders through the desktop. Each is given once, and nothing keeps a
-//! top-priority alarm quiet.
+//! Notices of alarms and reminders through the desktop. Azel gives each notice once, and no setting
+//! silences a top-priority alarm.
 
 #[cfg(test)]
 mod tests;
@@ -18,11 +18,11 @@ use crate::{
     station::{HoursOfDay, Notices, Tones},
 };
 
-/// An alarm or reminder to be told.
+/// An alarm or reminder to announce.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Notice {
     pub subject: NoticeSubject,
-    /// The desktop shows it.
+    /// `true` if the desktop shows the notice.
     pub is_shown: bool,
     pub tones: Tones,
 }
@@ -30,7 +30,8 @@ pub struct Notice {
 #[derive(Debug, Clone, PartialEq)]
 pub enum NoticeSubject {
     Alarm(Alarm),
-    /// The station has published nothing for this long, and raises no alarm of its own.
+    /// Time for which the station has published nothing. The station itself raises no alarm for
+    /// this.
     StationStands(Duration),
     Reminder(Reminder),
 }
@@ -46,27 +47,27 @@ impl NoticeSubject {
 pub struct News {
     /// Notices to give, top-priority alarms first.
     pub notices: Vec<Notice>,
-    /// Rows of alarms that stood at the last look and are over.
+    /// Rows of alarms that were active at the last look and are over.
     pub ended: Vec<u64>,
 }
 
-/// Keeps track of the notices already given.
+/// Record of the notices already given.
 #[derive(Debug, Default)]
 pub struct Teller {
-    /// Ids of the alarms that were new when it last looked.
+    /// Ids of the alarms that were new at the last look.
     new: BTreeSet<u64>,
-    /// Rows of the alarms that stood then.
+    /// Rows of the alarms that were active at the last look.
     standing: BTreeSet<u64>,
-    /// Passes of the reminders that were there then.
+    /// Passes of the reminders at the last look.
     reminded: Vec<PassListKey>,
-    /// The station stood then.
+    /// `true` if the station published nothing at the last look.
     stood: bool,
 }
 
 impl Teller {
-    /// Alarms that became new, reminders that came and alarms that were over since the last look.
-    /// `stood`: the station has published nothing for so long. Quiet hours go by the clock
-    /// of `zone`.
+    /// Returns the alarms that became new, the new reminders and the alarms that ended since the
+    /// last look. `stood` is the time for which the station has published nothing. Quiet hours
+    /// follow the clock of `zone`.
     pub fn look(&mut self, station: &Snapshot, stood: Option<Duration>, zone: &TimeZone) -> News {
         let new = |alarm: &&Alarm| !alarm.acknowledged;
         let alarms = station.alarms.list().iter().filter(new);
@@ -108,7 +109,7 @@ impl Teller {
     }
 }
 
-/// Returns the sound of a notice. The operator cannot choose that of a top-priority alarm.
+/// Returns the sound of a notice. The operator cannot change the sound of a top-priority alarm.
 fn tones(subject: &NoticeSubject, notices: &Notices) -> Tones {
     match subject {
         NoticeSubject::Alarm(alarm) => match alarm.priority() {

@@ -1,5 +1,5 @@
-//! The next passes of the object that the Elements view shows in detail, and its older sets
-//! against the one in use. Worked out on a thread.
+//! Next passes of the object shown in detail in the Elements view, and its older sets compared with
+//! the set in use. A thread computes them.
 
 use std::sync::Arc;
 
@@ -19,13 +19,13 @@ use crate::{
     station::Station,
 };
 
-/// Passes that are shown.
+/// Number of passes shown.
 const COUNT: usize = 3;
-/// Days ahead in which they are searched for, one after the other.
+/// Time ahead in which Azel searches for the passes, days.
 const DAYS: u32 = 7;
-/// A pass under way began at most so long ago, except of satellites that hardly move.
+/// Max time since the start of a current pass, seconds, except for satellites that hardly move.
 const LOOK_BACK_S: f64 = 3600.0;
-/// Time before and after a pass in which the same pass is looked for by an older set.
+/// Time before and after a pass in which an older set may show the same pass, seconds.
 const AROUND_S: f64 = 1800.0;
 
 /// Inputs of the detail, except the time.
@@ -55,23 +55,23 @@ pub struct ObjectDetail {
     pub key: DetailKey,
     /// The first passes that reach the elevation floor of the station, in order of time.
     pub passes: Vec<PredictedPass>,
-    /// The sets that are not in use, the newest first.
+    /// The sets not in use, the newest first.
     pub sets: Vec<SetShift>,
 }
 
-/// A set that is not in use against the one in use, during the next pass.
+/// A set not in use, compared with the set in use during the next pass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SetShift {
     pub set: OlderSet,
-    /// Seconds by which the satellite comes later by this set, at its closest approach; `None`
-    /// where it has no such pass.
+    /// Delay of the satellite by this set at its closest approach, seconds; `None` if this set has
+    /// no such pass.
     pub late_s: Option<f64>,
-    /// Largest angle between the directions by both sets; `None` without a pass.
+    /// Max angle between the directions by both sets; `None` without a pass.
     pub deviation: Option<Angle>,
 }
 
 impl ObjectDetail {
-    /// Works out the detail at `now`.
+    /// Computes the detail at `now`.
     pub fn new(key: DetailKey, now: Timestamp, cancelled: &dyn Fn() -> bool) -> Self {
         let passes = next_passes(&key, now, cancelled);
         let older = key.older.iter().flat_map(|older| &older.sets);
@@ -80,7 +80,7 @@ impl ObjectDetail {
         Self { key, passes, sets }
     }
 
-    /// Returns `true` if this is still the detail for `key` at `now`.
+    /// Returns `true` if the detail is still valid for `key` at `now`.
     pub fn is_of(&self, key: &DetailKey, now: Timestamp) -> bool {
         self.key == *key && self.passes.iter().all(|predicted| predicted.pass.los.time > now)
     }
@@ -173,7 +173,7 @@ mod tests {
         let catalog = bundled().unwrap();
         let now: Timestamp = "2026-08-12T12:00:00Z".parse().unwrap();
         let iss = catalog.get(25_544).unwrap();
-        // The same orbit, flown 10 s later: the mean anomaly is that much behind.
+        // The same orbit, 10 s later: a smaller mean anomaly.
         let mut text = Vec::new();
         crate::orbit::write_omm_json([iss], &mut text).unwrap();
         let mut list: serde_json::Value = serde_json::from_slice(&text).unwrap();
@@ -182,7 +182,7 @@ mod tests {
         list[0]["MEAN_ANOMALY"] = anomaly.rem_euclid(360.0).into();
         list[0]["EPOCH"] = "2026-08-11T00:00:00".into();
         let late = crate::orbit::read_elements(&list.to_string()).elements.remove(0);
-        // The epoch alone is moved: what is compared must not depend on it.
+        // The test moves only the epoch; the comparison must not depend on it.
         let moved_s = seconds_between(late.epoch(), iss.epoch());
         list[0]["MEAN_ANOMALY"] =
             (anomaly - moved_s * 360.0 / iss.period_s()).rem_euclid(360.0).into();

@@ -1,4 +1,4 @@
-//! The plan as its view shows it: each pass of the favourites with what the schedule says of it.
+//! The plan, as the plan view shows it: each pass of the favourites with its place in the schedule.
 
 mod pose;
 
@@ -20,16 +20,17 @@ use crate::{
 };
 pub use pose::{PlannedActivity, Pose};
 
-/// Largest difference in AOS of one pass between the list and the schedule, seconds.
+/// Max difference between the AOS of the same pass in the list and in the schedule, seconds.
 const SAME_AOS_S: f64 = 60.0;
 
-/// A pass of the list with what the schedule says of it.
+/// A pass of the list with its place in the schedule.
 #[derive(Debug, Clone)]
 pub struct PlannedPass<'a> {
     pub predicted: &'a PredictedPass,
-    /// Two where one antenna hands it over to another.
+    /// Entries of the pass; two if one antenna hands the pass over to another.
     pub entries: Vec<&'a Entry>,
-    /// `None` also while no schedule knows of the pass.
+    /// Reason why the schedule leaves the pass out; also `None` while no schedule contains the
+    /// pass.
     pub left_out: Option<&'a LeftOut>,
     pub choice: Option<&'a PassChoice>,
 }
@@ -43,23 +44,23 @@ pub struct PlannedSatellite<'a> {
     pub passes: Vec<PlannedPass<'a>>,
 }
 
-/// How a pass stands on one antenna.
+/// Status of a pass on one antenna.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Standing<'a> {
-    /// It is over.
+    /// A pass that is over.
     Flown(&'a Flown),
-    /// It is tracked now.
+    /// A pass that the antenna tracks now.
     Running,
-    /// The antenna is on its way, and that was proved at this time.
+    /// A pass to which the antenna moves; the motion was confirmed at this time.
     Proved(Timestamp),
-    /// The unit was asked at this time, and has not proved it.
+    /// A pass for which Azel commanded the unit at this time, without confirmation yet.
     Sent(Timestamp),
-    /// The antenna will be sent to it.
+    /// A pass to which Azel will send the antenna.
     Planned(&'a Entry),
-    /// Another antenna takes it.
+    /// A pass that another antenna takes.
     TakenBy(AntennaId),
     LeftOut(&'a LeftOutReason),
-    /// No schedule knows of it yet.
+    /// A pass that is not in any schedule yet.
     NotKnown,
 }
 
@@ -72,7 +73,7 @@ pub struct ListedPass<'a> {
     pub max_elevation_deg: Option<f64>,
     pub entry: Option<&'a Entry>,
     pub standing: Standing<'a>,
-    /// Still to come, with all that is known of it.
+    /// Plan of the pass if the pass is not over.
     pub planned: Option<PlannedPass<'a>>,
 }
 
@@ -81,19 +82,19 @@ fn is_same(entry: (u32, Timestamp), key: PassListKey) -> bool {
 }
 
 impl Model {
-    /// The end of the plan.
+    /// Returns the end of the plan.
     pub fn plan_until(&self) -> Timestamp {
         add_seconds(self.now, self.station.scheduling.span_h * 3600.0)
     }
 
-    /// The entry of the plan that an antenna carries out now or next.
+    /// Returns the entry of the plan that an antenna carries out now or next.
     pub fn next_entry(&self, antenna: AntennaId) -> Option<&Entry> {
         let entries = self.schedule.schedule.entries.iter();
         let own = entries.filter(|entry| entry.antenna == antenna && entry.end > self.now);
         own.min_by_key(|entry| entry.start)
     }
 
-    /// The antennas that take a pass in the plan; the selected one where none does.
+    /// Returns the antennas that take a pass in the plan, or the selected antenna if none does.
     pub fn antennas_of(&self, key: PassListKey) -> Vec<AntennaId> {
         let entries = self.schedule.schedule.entries.iter();
         let own = entries.filter(|entry| is_same((entry.pass.satellite, entry.pass.aos), key));
@@ -105,18 +106,18 @@ impl Model {
         }
     }
 
-    /// Returns the cost of this pass in the schedule shown, once that is known.
+    /// Returns the cost of this pass in the current schedule, once it is computed.
     pub fn swap_of(&self, pass: PassListKey) -> Option<&Swap> {
         let fits = |swap: &&Swap| swap.pass == pass && swap.revision == self.schedule.revision;
         self.swap.as_deref().filter(fits)
     }
 
-    /// Returns all passes to come and their place in the schedule, by AOS.
+    /// Returns all future passes and their place in the schedule, by AOS.
     pub fn planned_passes(&self) -> Vec<PlannedPass<'_>> {
         self.planned_passes_until(self.plan_until())
     }
 
-    /// Returns the passes to come with AOS before `end` and their place in the schedule, by AOS.
+    /// Returns the future passes with AOS before `end` and their place in the schedule, by AOS.
     pub fn planned_passes_until(&self, end: Timestamp) -> Vec<PlannedPass<'_>> {
         let schedule = &self.schedule.schedule;
         let last = add_seconds(end, SAME_AOS_S);
@@ -132,12 +133,12 @@ impl Model {
         planned.collect()
     }
 
-    /// A pass with what the schedule says of it.
+    /// Returns a pass with its place in the schedule.
     pub fn planned_pass<'a>(&'a self, predicted: &'a PredictedPass) -> PlannedPass<'a> {
         self.planned(predicted, self.schedule.schedule.entries.iter())
     }
 
-    /// The selected pass, as far as it is planned.
+    /// Returns the selected pass if it lies within the plan.
     pub fn selected_planned(&self) -> Option<PlannedPass<'_>> {
         let predicted = self.pass_lists.favourites.find(self.selected_pass()?.key())?;
         let is_planned = !predicted.is_always_up() && predicted.pass.aos.time < self.plan_until();
@@ -170,7 +171,7 @@ impl Model {
         near.find(|entry| is_same((entry.pass.satellite, entry.pass.aos), key))
     }
 
-    /// The satellites of the plan by priority, then in the order of the favourites.
+    /// Returns the satellites of the plan by priority, then in the order of the favourites.
     pub fn planned_satellites(&self) -> Vec<PlannedSatellite<'_>> {
         let mut by_number: BTreeMap<u32, Vec<PlannedPass<'_>>> = BTreeMap::new();
         for planned in self.planned_passes() {
@@ -195,7 +196,7 @@ impl Model {
         satellites
     }
 
-    /// The passes of this day that are over for an antenna.
+    /// Returns the passes of this day that are over for an antenna.
     pub fn flown_by(&self, antenna: AntennaId) -> impl Iterator<Item = &Flown> + Clone {
         let own = self.day.iter().filter(move |line| line.antenna == antenna);
         own.filter_map(|line| match &line.event {
@@ -204,7 +205,7 @@ impl Model {
         })
     }
 
-    /// How passes that have not set stand on an antenna.
+    /// Returns the status of passes on an antenna that are not over.
     pub fn standings_on(&self, antenna: &AntennaModel) -> Standings<'_> {
         let mut flown: Vec<&Flown> = self.flown_by(antenna.id()).collect();
         flown.sort_by_key(|flown| flown.pass.0);
@@ -216,7 +217,7 @@ impl Model {
         }
     }
 
-    /// Returns the list of an antenna: the passes of this day that are over, then those to come.
+    /// Returns the list of an antenna: past passes of this day, then future passes.
     pub fn listed_passes(&self, antenna: &AntennaModel) -> Vec<ListedPass<'_>> {
         let id = antenna.id();
         let ended = self.flown_by(id).map(|flown| ListedPass {
@@ -248,10 +249,10 @@ impl Model {
     }
 }
 
-/// How passes stand on an antenna.
+/// Status of passes on an antenna.
 pub struct Standings<'a> {
     antenna: AntennaId,
-    /// Passes that are over for it, by satellite.
+    /// Passes that are over for the antenna, by satellite.
     flown: Vec<&'a Flown>,
     taking: Option<Taking>,
     now: Timestamp,
@@ -259,7 +260,7 @@ pub struct Standings<'a> {
 
 impl<'a> Standings<'a> {
     pub fn standing(&self, planned: &PlannedPass<'a>) -> Standing<'a> {
-        // A pass that is over for the antenna may not have set yet.
+        // A pass that is over for the antenna may not have reached LOS yet.
         let flown = self.flown(planned.predicted.key());
         flown.map_or_else(|| self.ahead(planned), Standing::Flown)
     }
@@ -274,7 +275,7 @@ impl<'a> Standings<'a> {
         planned.entries.iter().copied().find(|entry| entry.antenna == self.antenna)
     }
 
-    /// How a pass that is not over for the antenna stands.
+    /// Returns the status of a pass that is not over for the antenna.
     fn ahead(&self, planned: &PlannedPass<'a>) -> Standing<'a> {
         let Some(entry) = self.entry(planned) else {
             if let Some(other) = planned.entries.first() {

@@ -1,4 +1,4 @@
-//! A rehearsal of the plan as its view shows it.
+//! A rehearsal of the plan, as the plan view shows it.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::{
     },
 };
 
-/// Largest difference in AOS of one pass between the list and the rehearsal, seconds.
+/// Max difference between the AOS of the same pass in the list and in the rehearsal, seconds.
 const SAME_AOS_S: f64 = 60.0;
 
 /// The last rehearsal of this window.
@@ -21,7 +21,7 @@ const SAME_AOS_S: f64 = 60.0;
 pub enum RehearsalState {
     #[default]
     None,
-    /// It has come to this share, 0 to 1.
+    /// Progress of the current rehearsal, 0 to 1.
     UnderWay(f64),
     Done {
         rehearsed: Arc<Rehearsed>,
@@ -31,7 +31,8 @@ pub enum RehearsalState {
 }
 
 impl Model {
-    /// Returns the outcome of a pass in the rehearsal; two where it is handed over.
+    /// Returns the outcomes of a pass in the rehearsal: two outcomes if antennas hand the pass
+    /// over.
     pub fn rehearsed(&self, key: PassListKey) -> impl Iterator<Item = &RehearsedPass> {
         let passes = match &self.rehearsal {
             RehearsalState::Done { rehearsed, .. } => &rehearsed.passes[..],

@@ -1,4 +1,4 @@
-//! The record shown again.
+//! Replay of the record.
 
 use jiff::Timestamp;
 
@@ -8,19 +8,19 @@ use crate::{
     station::AntennaId,
 };
 
-/// A replay of a pass shows so much before and after it, seconds.
+/// Time that a replay shows before and after a pass, seconds.
 const BEFORE_S: f64 = 30.0;
 const AFTER_S: f64 = 60.0;
 
-/// A replay ends by itself this long before an antenna is to track a pass, seconds.
+/// Time before a tracked pass at which a replay ends automatically, seconds.
 pub const ENDS_BEFORE_PASS_S: f64 = 120.0;
 
-/// A stretch of the record that is shown again.
+/// A stretch of the record for a replay.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stretch {
-    /// Subject, such as the name of a satellite.
+    /// Subject of the stretch, such as the name of a satellite.
     pub name: String,
-    /// Pass that the stretch is of, if any.
+    /// Pass in the stretch, if it shows one.
     pub pass: Option<StretchPass>,
     pub start: Timestamp,
     pub end: Timestamp,
@@ -29,16 +29,16 @@ pub struct Stretch {
 /// A pass of the record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StretchPass {
-    /// Number in the record.
+    /// Id of the pass in the record.
     pub id: i64,
     /// Catalog number of the satellite.
     pub satellite: u32,
-    /// The antenna that tracked it.
+    /// The antenna that tracked the pass.
     pub antenna: AntennaId,
 }
 
 impl Stretch {
-    /// A pass, from shortly before its track to shortly after its LOS.
+    /// Returns the stretch of a pass, from shortly before its track to shortly after its LOS.
     pub fn new(pass: &RecordedPass) -> Self {
         let report = &pass.report;
         Self {
@@ -53,7 +53,7 @@ impl Stretch {
         }
     }
 
-    /// The same stretch, or one as long around `time` where that is outside.
+    /// Returns the same stretch, or one of the same length around `time` if `time` is outside.
     #[must_use]
     pub fn around_time(self, time: Timestamp) -> Self {
         if (self.start..=self.end).contains(&time) {
@@ -69,80 +69,80 @@ impl Stretch {
     }
 }
 
-/// Operator's command to a running replay.
+/// A command of the operator to the current replay.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ReplayCommand {
     PlayOrPause,
-    /// Play at this speed, in multiples of real time; below zero backward.
+    /// Speed to play at, in multiples of real time; negative speeds play backward.
     Speed(i32),
-    /// Show the next recorded pass, or the one before.
+    /// Jump to the next or previous recorded pass.
     Pass {
         is_next: bool,
     },
-    /// Stand at the next recorded event, or at the one before.
+    /// Jump to the next or previous recorded event.
     Event {
         is_next: bool,
     },
-    /// Go to this moment.
+    /// Jump to this time.
     To(Timestamp),
 }
 
 /// Speeds of a replay, forward or backward, in multiples of real time.
 pub const SPEEDS: [i32; 5] = [1, 5, 10, 20, 60];
 
-/// How a replay stands.
+/// State of a replay.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Replayed {
     pub stretch: Stretch,
-    /// The moment that is shown.
+    /// The time that the replay shows.
     pub time: Timestamp,
-    /// In multiples of real time; below zero backward.
+    /// Speed in multiples of real time; negative if the replay runs backward.
     pub speed: i32,
     pub plays: bool,
     /// The passes in the stretch.
     pub passes: Vec<PassTimes>,
-    /// Outcome of the last jump besides the moment that is shown.
+    /// Outcome of the last jump besides the new time.
     pub news: Option<JumpNews>,
-    /// Why this moment is not shown.
+    /// Reason why the replay cannot show this time.
     pub problem: Option<ReplayProblem>,
 }
 
-/// Outcome of a jump to an event or to a pass besides the moment that is shown.
+/// Outcome of a jump to an event or to a pass besides the new time.
 #[derive(Debug, Clone, PartialEq)]
 pub enum JumpNews {
-    /// There is no film of this stretch, which was passed over.
+    /// A stretch without film, which the replay skipped.
     Skipped { start: Timestamp, end: Timestamp },
-    /// There is no event on this side.
+    /// No event in this direction.
     NoEvent { is_next: bool },
-    /// There is no pass on this side.
+    /// No pass in this direction.
     NoPass { is_next: bool },
-    /// The record cannot be read.
+    /// Error while reading the record.
     Failed(String),
 }
 
-/// Why a moment cannot be shown again.
+/// Reason why the replay cannot show a time.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ReplayProblem {
-    /// Nothing was recorded before it.
+    /// A time before the first record.
     NothingYet,
-    /// There is no film of it, between two runs. What was shown last stands there.
+    /// A time between two runs, without film. The view keeps the last shown state.
     NoFilm {
         start: Timestamp,
         end: Timestamp,
     },
     Failed(String),
-    /// The thread that reads the film cannot be started or broke off, for this reason. From then on
-    /// nothing is read.
+    /// Reason why the thread that reads the film could not start or has stopped. Azel reads no more
+    /// film.
     NotRead(String),
 }
 
-/// Why a replay ended by itself.
+/// Reason why a replay ended automatically.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ReplayEnd {
     Stop,
-    /// An alarm of the first priority came.
+    /// A new alarm of the first priority.
     Alarm,
-    /// An antenna is to track a satellite from then on.
+    /// A pass that an antenna is about to track.
     Pass {
         antenna: String,
         satellite: String,
@@ -151,12 +151,12 @@ pub enum ReplayEnd {
 }
 
 impl Replayed {
-    /// A replay that begins to play.
+    /// Returns a replay that starts to play.
     pub fn begin(stretch: Stretch, time: Timestamp) -> Self {
         Self { stretch, time, speed: 1, plays: true, passes: Vec::new(), news: None, problem: None }
     }
 
-    /// Returns `true` if playing would not move it on.
+    /// Returns `true` if the replay is at the end towards which it plays.
     pub fn is_at_end(&self) -> bool {
         self.time == if self.speed < 0 { self.stretch.start } else { self.stretch.end }
     }

@@ -11,23 +11,23 @@ use crate::{
     orbit::{LookAngles, Propagator, is_sunlit},
 };
 
-/// Maximum number of satellites in the sky of which names and paths can be told apart.
+/// Max number of satellites in the sky whose names and paths stay distinguishable.
 pub const CROWD: usize = 150;
-/// Length of the drawn path of a satellite that is not selected.
+/// Time covered by the drawn path of an unselected satellite, seconds.
 const AHEAD_S: f64 = 300.0;
-/// Least time ahead of day and night.
+/// Min time for which day and night are computed, seconds.
 const SUN_AHEAD_S: f64 = 25.0 * 3600.0;
 
 /// The sky of the site.
 #[derive(Debug, Default)]
 pub struct Sky {
-    /// Satellites of the list above the horizon.
+    /// Satellites of the list that are above the horizon.
     pub satellites: Vec<SkySatellite>,
-    /// The satellite of the selected pass, above the horizon or not.
+    /// The satellite of the selected pass, above or below the horizon.
     pub selected: Option<Selected>,
     pub sun: Option<AzEl>,
     pub moon: Option<AzEl>,
-    /// Day and night from shortly before now to the end of the plan, for a day at least.
+    /// Day and night from shortly before now to the end of the plan, for at least a day.
     pub sun_spans: Vec<SunSpan>,
     seconds: Option<i64>,
     sun_spans_of: Option<(Site, i64, f64)>,
@@ -38,7 +38,7 @@ pub struct Sky {
 pub struct SkySatellite {
     pub satellite: Arc<ListedSatellite>,
     pub direction: AzEl,
-    /// Path of the next minutes; empty in a crowd.
+    /// Path over the next minutes; empty if the sky is crowded.
     pub ahead: Vec<AzEl>,
 }
 
@@ -46,7 +46,7 @@ pub struct SkySatellite {
 #[derive(Debug, Clone, Copy)]
 pub struct Selected {
     pub look: LookAngles,
-    /// The Sun shines on it.
+    /// `true` if the Sun shines on the satellite.
     pub sunlit: bool,
 }
 
@@ -58,7 +58,7 @@ impl Selected {
 }
 
 impl Sky {
-    /// Brings it to `now`; `span_s` is the length of the plan.
+    /// Updates the sky to `now`. `span_s` is the length of the plan.
     pub(super) fn refresh(
         &mut self,
         satellites: &[Arc<ListedSatellite>],
@@ -67,7 +67,8 @@ impl Sky {
         now: Timestamp,
     ) {
         if self.seconds == Some(now.as_second()) {
-            // The selected satellite is compared with the antenna and moves with every frame.
+            // The operator compares the selected satellite with the antenna, so it moves in every
+            // frame.
             self.selected = selected.and_then(|satellite| Selected::new(satellite, site, now));
             return;
         }
@@ -78,7 +79,7 @@ impl Sky {
         self.refresh_sun_spans(site, span_s, now);
     }
 
-    /// The sky at any time, without day and night.
+    /// Returns the sky at `time`, without day and night.
     pub(super) fn new(
         satellites: &[Arc<ListedSatellite>],
         selected: Option<&ListedSatellite>,
@@ -90,7 +91,7 @@ impl Sky {
         let places = Propagator::over_ground(&requests).into_iter();
         let up = satellites.iter().zip(places).filter_map(|(satellite, place)| {
             let place_km = frame.enu_km(place?.position_km);
-            // The direction of one well below the horizon is not worth computing.
+            // Skip the direction of a satellite far below the horizon, which costs time.
             let direction =
                 (place_km.z > -0.1 * place_km.length()).then(|| frame.direction(place_km))?;
             (direction.elevation > Angle::ZERO).then(|| SkySatellite {

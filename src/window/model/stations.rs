@@ -1,14 +1,14 @@
-//! The stations that the window can change to, and the change under way.
+//! The stations that the window can change to, and the current change.
 
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-/// A station that was open in the window before.
+/// A station that the window has opened before.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct KnownStation {
     pub name: String,
-    /// Its file.
+    /// File of the station.
     pub path: PathBuf,
 }
 
@@ -17,7 +17,7 @@ pub struct KnownStation {
 pub enum NextStation {
     /// The demo station.
     Demo,
-    /// A new one: the set-up beside the demo station.
+    /// A new station; the operator sets it up next to the demo station.
     New,
     File(PathBuf),
 }
@@ -25,20 +25,22 @@ pub enum NextStation {
 /// The stations of the station menu.
 #[derive(Debug, Clone, Default)]
 pub struct Stations {
-    /// The last used first.
+    /// Known stations, the last used first.
     pub stations: Vec<KnownStation>,
-    /// File of the station in the window; for the demo station that of the station it may become.
+    /// File of the current station. For the demo station, the file of the station that it may
+    /// become.
     pub open: Option<PathBuf>,
-    /// The station that the operator is asked about, or that the window changes to.
+    /// Name of the station that the operator has to confirm, or that the window changes to.
     pub next: Option<String>,
-    /// The station in the window ends, and the next one begins.
+    /// `true` while the current station ends and the next one begins.
     pub is_changing: bool,
-    /// Why the last one that was chosen was not opened.
+    /// Reason why Azel did not open the last chosen station.
     pub refused: Option<String>,
 }
 
 impl Stations {
-    /// Returns the text of the menu for a known station. The files tell two of the same name apart.
+    /// Returns the menu text for a known station. The file name distinguishes stations of the same
+    /// name.
     pub fn label(&self, station: &KnownStation) -> String {
         let is_alone =
             self.stations.iter().filter(|known_station| known_station.name == station.name).count()

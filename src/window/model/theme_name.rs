@@ -1,19 +1,19 @@
-//! The themes by name.
+//! Names of the themes.
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ThemeName {
-    /// The default, for the operations room.
+    /// Dark theme for the operations room, the default.
     #[default]
     Dark,
-    /// For bright rooms and projectors.
+    /// Light theme for bright rooms and projectors.
     Light,
-    /// One red hue, for outdoor and observatory work.
+    /// Theme in one red hue, for outdoor and observatory work.
     Night,
 }
 
 impl ThemeName {
-    /// The next theme in the ring.
+    /// Returns the next theme in the cycle.
     #[must_use]
     pub fn next(self) -> Self {
         match self {

@@ -1,33 +1,33 @@
-//! Paths that the operator types, because the desktop shows no file dialogs.
+//! Paths that the operator enters because the desktop shows no file dialogs.
 
 use std::path::PathBuf;
 
 use super::export::Export;
 
-/// A path that the operator types for a file to save.
+/// A path that the operator enters for a file to save.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TypedPath {
     pub path: PathBuf,
-    /// The operator agrees that the file at this path is replaced.
+    /// `true` if the operator agrees to replace the file at this path.
     pub replaces: bool,
 }
 
-/// Asks the operator to type the path of a file.
+/// A request to the operator to enter the path of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PathRequest {
     pub purpose: PathPurpose,
-    /// The path that is proposed, or was typed before.
+    /// The proposed path, or the path entered before.
     pub path: PathBuf,
-    /// Why the path is to be typed, or typed again.
+    /// Reason why Azel asks for the path, or asks again.
     pub reason: String,
 }
 
-/// The purpose of a typed path.
+/// The purpose of an entered path.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum PathPurpose {
     Save {
         export: Export,
-        /// The file at the proposed path exists and would be replaced.
+        /// `true` if the file at the proposed path exists and would be replaced.
         replaces: bool,
     },
     Open(OpenedFile),

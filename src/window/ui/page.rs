@@ -1,6 +1,6 @@
-//! Pages of A4 to print, in black on white, as HTML that needs no other file. The style sheet gives
-//! every row its height, so that a page knows how many fit and counts the rest; a browser cuts words
-//! that are too long.
+//! A4 pages to print, in black on white, as self-contained HTML. The style sheet sets the height of
+//! every row, so that a page knows how many rows fit and counts the rest. A browser cuts words that
+//! are too long.
 
 pub(super) mod plot;
 #[cfg(test)]
@@ -11,14 +11,14 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use super::format;
 use crate::astro::Site;
 
-/// Height of the page within its margins, millimetres; as in the style sheet.
+/// Height of the page within its margins, millimetres; the style sheet has the same value.
 pub(super) const HEIGHT_MM: f64 = 276.0;
-/// Space between two sections, millimetres; as in the style sheet.
+/// Space between two sections, millimetres; the style sheet has the same value.
 pub(super) const GAP_MM: f64 = 2.5;
-/// Height of the head of a section, millimetres; as in the style sheet.
+/// Height of the head of a section, millimetres; the style sheet has the same value.
 pub(super) const SECTION_HEAD_MM: f64 = 5.0;
 
-/// The page with this title and content.
+/// Returns the page with this title and content.
 pub(super) fn whole(title: &str, content: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
@@ -34,7 +34,8 @@ pub(super) fn whole(title: &str, content: &Markup) -> String {
     page.into_string()
 }
 
-/// The head of a page: a name and the kind of page, and pairs of a line at the left and at the right.
+/// Returns the head of a page: a name, the kind of page, and pairs of lines at the left and at the
+/// right.
 pub(super) fn head(name: &str, kind: &str, lines: [[&str; 2]; 2]) -> Markup {
     html! {
         header.page {
@@ -46,7 +47,7 @@ pub(super) fn head(name: &str, kind: &str, lines: [[&str; 2]; 2]) -> Markup {
     }
 }
 
-/// A section: its name, a remark, and its content.
+/// Returns a section: its name, a remark, and its content.
 pub(super) fn section(class: &str, name: &str, remark: &str, content: &Markup) -> Markup {
     html! {
         section class=(class) {
@@ -56,7 +57,7 @@ pub(super) fn section(class: &str, name: &str, remark: &str, content: &Markup) -
     }
 }
 
-/// Latitude, longitude and altitude of a site.
+/// Formats latitude, longitude and altitude of a site.
 pub(super) fn place(site: Site) -> String {
     format!(
         "{}, {}, {} m",
@@ -66,7 +67,7 @@ pub(super) fn place(site: Site) -> String {
     )
 }
 
-/// A text without what no printer shows or what turns the order of the letters after it.
+/// Returns a text without characters that no printer shows or that reverse the direction of text.
 pub(super) fn printable(text: &str) -> String {
     let is_unseen = |letter: char| {
         letter.is_control()

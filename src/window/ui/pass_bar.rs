@@ -1,41 +1,41 @@
-//! The bar of a pass. Its state shows by its form, which one hue does not hide.
+//! The bar of a pass. The shape of a bar shows its state, so that it stays readable in one hue.
 
 use egui::{Rect, Stroke, StrokeKind, Ui};
 
 use super::{sky_plot::geometry::hatch, theme, widgets::paint};
 
-/// Width of the border of a pass that the unit was asked for.
+/// Width of the border of a pass that Azel has sent to the unit, points.
 const BORDER: f32 = 2.0;
-/// Dark line between that border and the fill.
+/// Width of the dark line between the border and the fill, points.
 const GAP: f32 = 1.0;
-/// Share of the width of a narrow bar that border and gap take at each side.
+/// Max share of the bar width that border and gap take at each side.
 const SHARE: f32 = 0.25;
 const OUTLINE: f32 = 1.0;
-/// Distance and width of the dark lines through a pass that is over.
+/// Distance between the dark lines through a pass that is over, and their width, points.
 const HATCH: f32 = 3.5;
 const HATCH_WIDTH: f32 = 1.25;
-/// Frame of a pass under way.
+/// Width of the frame of a current pass, points.
 const FRAME: f32 = 1.5;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum BarForm {
     Planned,
-    /// Sent to the unit and not read back: the border is dashed.
+    /// A pass sent to the unit and not yet read back; its border is dashed.
     Sent,
-    /// Read back from the unit.
+    /// A pass read back from the unit.
     Proved,
     Running,
-    /// Over: lines cross it.
+    /// A pass that is over; dark lines cross its bar.
     Done,
     Missed,
     LeftOut,
 }
 
-/// Paints a bar on the ground `bg0`.
+/// Paints a bar on a `bg0` background.
 pub(super) fn paint(ui: &Ui, rect: Rect, form: BarForm) {
     let t = theme::tokens(ui);
     let painter = ui.painter();
-    // Keeps bars apart that overlap.
+    // The outline separates bars that overlap.
     let ground = || painter.rect_filled(rect.expand(OUTLINE), 0.0, t.bg0);
     let line = BORDER.min(rect.width() * SHARE);
     let fill = || {
@@ -86,7 +86,7 @@ mod tests {
     use crate::ui::widgets::testing::window;
     use egui::{Color32, Shape, pos2, vec2};
 
-    /// The shapes of a bar with one colour for everything but its ground.
+    /// Returns the shapes of a bar in a single hue, except for the background.
     fn in_one_hue(form: BarForm, size: egui::Vec2) -> Vec<String> {
         fn collect(shape: &Shape, ground: Color32, found: &mut Vec<String>) {
             let hue = |colour: Color32| match colour {

@@ -11,29 +11,29 @@ use super::{
     },
 };
 
-/// Height of the header.
+/// Height of the header, points.
 pub const HEIGHT: f32 = 56.0;
-/// A lower header has one line.
+/// Min height of a header with two lines, points.
 const TWO_LINES_FROM: f32 = 52.0;
-/// Padding at the left and the right.
+/// Padding at the left and the right, points.
 const PADDING: f32 = 16.0;
-/// [`PADDING`] in a small window, with the button.
+/// [`PADDING`] in a small window, which also shows the button, points.
 const SMALL_PADDING: f32 = 12.0;
-/// Gap between the texts at the left and the countdowns.
+/// Gap between the texts at the left and the countdowns, points.
 const GAP: f32 = 16.0;
-/// Gap between a word and its value.
+/// Gap between a word and its value, points.
 const WORD_GAP: f32 = 7.0;
-/// Downward shift of a smaller text to align its baseline with a larger one, for each point of
-/// difference in size.
+/// Downward shift of a smaller text to align its baseline with a larger text, points for each point
+/// of difference in size.
 const DOWN_PER_SIZE: f32 = 0.22;
-/// Stands between the clauses of the second line.
+/// Separator between the clauses of the second line.
 pub const SEPARATOR: &str = " · ";
-/// Minimum width of a text; with less room it is left out.
+/// Min width of a text, points; the header omits a text with less room.
 const MIN_TEXT: f32 = 24.0;
-/// Minimum width of the texts for a countdown to TCA.
+/// Min width of the texts next to which a TCA countdown fits, points.
 const TCA_FROM: f32 = 180.0;
-/// Widest usual countdown; its width is reserved, so that the words before it do not move with
-/// the digits.
+/// Widest common countdown. The header reserves its width so that the words before it do not move
+/// with the digits.
 const DEFAULT_COUNTDOWN: &str = "T−00:00";
 
 /// The selected pass in words.
@@ -42,7 +42,7 @@ pub struct PassHeaderModel<'a> {
     pub name: &'a str,
     /// Second name and catalog number.
     pub detail: &'a str,
-    /// Warnings of the second line; they stand first.
+    /// Warnings at the start of the second line.
     pub warning: &'a str,
     /// The rest of the second line: the elements and their location.
     pub second_line: &'a str,
@@ -51,13 +51,13 @@ pub struct PassHeaderModel<'a> {
     /// Event of the large countdown, such as AOS or LOS.
     pub event: &'a str,
     pub countdown: &'a str,
-    /// A small window: one line, and a button that opens the list of passes.
+    /// `true` in a small window: one line, and a button that opens the list of passes.
     pub drawer_button: bool,
-    /// A sentence to show in place of a pass.
+    /// Sentence to show in place of a pass.
     pub empty: Option<&'a str>,
 }
 
-/// Shows the header in `rect`. Returns `true` when the operator wants the list of passes.
+/// Shows the header in `rect`. Returns `true` when the operator opens the list of passes.
 pub fn show(ui: &mut Ui, rect: Rect, model: &PassHeaderModel<'_>) -> bool {
     let t = theme::tokens(ui);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
@@ -82,7 +82,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &PassHeaderModel<'_>) -> bool {
     let left = countdowns(ui, room, model, one_line);
     let texts = room.with_max_x((left - GAP).max(room.left()));
     if one_line {
-        // A warning needs the room more than the second name.
+        // A warning gets the room of the second name.
         let detail = if model.warning.is_empty() { model.detail } else { "" };
         let end = names(ui, texts, model.name, detail, text::value());
         let rest = texts.with_min_x(end + WORD_GAP).translate(vec2(0.0, DOWN_PER_SIZE * 3.0));
@@ -92,7 +92,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &PassHeaderModel<'_>) -> bool {
         names(ui, line(rect.top() + 20.0), model.name, model.detail, text::title());
         second_line(ui, line(rect.top() + 40.0), model);
     }
-    // The tool-tip contains texts that had no room.
+    // The tool-tip contains the texts that had no room.
     paint::name_text(
         ui,
         "pass",
@@ -103,8 +103,8 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &PassHeaderModel<'_>) -> bool {
     clicked
 }
 
-/// Paints the name in `font` and then `detail`, cut at the end of `rect`. Returns their right
-/// end.
+/// Paints the name in `font` and then `detail`, cut at the end of `rect`. Returns the right end of
+/// the texts.
 fn names(ui: &Ui, rect: Rect, name: &str, detail: &str, font: FontId) -> f32 {
     let t = theme::tokens(ui);
     let down = DOWN_PER_SIZE * (font.size - text::body().size);
@@ -126,7 +126,7 @@ fn second_line(ui: &Ui, rect: Rect, model: &PassHeaderModel<'_>) {
         room = rect.with_min_x(drawn.right());
         words = format!("{SEPARATOR}{words}");
     }
-    // A clause that has no room is left out whole, with those behind it.
+    // The line omits a clause without room, and all clauses after it.
     while !words.is_empty() && paint::text_width(ui, &words, text::small()) > room.width() {
         words = words.rsplit_once(SEPARATOR).map_or("", |(first, _)| first).to_owned();
     }
@@ -173,7 +173,7 @@ fn countdowns(ui: &Ui, room: Rect, model: &PassHeaderModel<'_>, one_line: bool) 
     left
 }
 
-/// The width to reserve for a countdown.
+/// Returns the width to reserve for a countdown, points.
 fn countdown_width(ui: &Ui, countdown: &str, font: FontId) -> f32 {
     if countdown.is_empty() {
         return 0.0;
@@ -182,7 +182,7 @@ fn countdown_width(ui: &Ui, countdown: &str, font: FontId) -> f32 {
     paint::text_width(ui, countdown, font).max(default)
 }
 
-/// The non-empty texts, joined.
+/// Joins the non-empty texts.
 fn joined(texts: &[&str]) -> String {
     let texts: Vec<&str> = texts.iter().copied().filter(|text| !text.is_empty()).collect();
     texts.join(", ")

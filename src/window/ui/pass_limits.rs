@@ -1,5 +1,5 @@
-//! The limits of a satellite: which of its passes the schedule takes. Changed where the satellite
-//! is shown.
+//! The limits of a satellite, which decide which of its passes the schedule takes. The operator
+//! changes them where the satellite is shown.
 
 use egui::{Align2, RichText, Sense, Ui, vec2};
 
@@ -27,8 +27,8 @@ const DURATIONS_S: [f64; 6] = [60.0, 120.0, 240.0, 360.0, 480.0, 600.0];
 const PER_DAY: [u32; 6] = [1, 2, 3, 4, 6, 8];
 const LIGHTS: [Light; 3] = [Light::Day, Light::Night, Light::Sunlit];
 
-/// Shows the limits of a favourite in `width` points; a choice changes them at once. `lock`: why the
-/// settings of the station may not change now.
+/// Shows the limits of a favourite in `width` points; a choice takes effect immediately. `lock` is
+/// the reason why the operator may not change the settings now.
 pub(super) fn show(
     ui: &mut Ui,
     width: f32,
@@ -57,14 +57,14 @@ pub(super) fn show(
 pub(super) struct LimitsForm<'a> {
     pub(super) width: f32,
     pub(super) label_width: f32,
-    /// The antennas that can be chosen.
+    /// Antennas to choose from.
     pub(super) antennas: &'a [(AntennaId, String)],
-    /// Why the limits may not change now.
+    /// Reason why the operator may not change the limits now.
     pub(super) lock: Option<&'a str>,
 }
 
 impl LimitsForm<'_> {
-    /// Shows the limits that hold, which are `all`, and changes `own`.
+    /// Shows the effective limits `all`, and edits `own`.
     pub(super) fn show(&self, ui: &mut Ui, own: &mut PassLimits, all: &PassLimits) {
         let t = theme::tokens(ui);
         let is_partly_of_a_group = own != all;
@@ -106,7 +106,7 @@ impl LimitsForm<'_> {
     }
 }
 
-/// The limits in a few words, such as "from 20°, by night"; empty where there are none.
+/// Returns the limits in a few words, such as "from 20°, by night"; empty without limits.
 pub(super) fn in_short(limits: &PassLimits, antennas: &[(AntennaId, String)]) -> String {
     let words = [
         limits.min_max_elevation_deg.map(elevation),

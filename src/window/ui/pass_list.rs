@@ -32,30 +32,30 @@ pub use filter::Filter;
 pub use short_row::{SHORT_ROW, short_row};
 pub use verdict::{LeftOut, Verdict};
 
-/// Selectable elevation floors.
+/// Elevation floors to choose from, degrees.
 pub const FLOORS_DEG: [f64; 8] = [0.0, 5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 75.0];
 
 #[derive(Debug, Clone, Copy)]
 pub struct PassRow<'a> {
-    /// Identifies the pass while it is listed.
+    /// Key of the pass while the list contains it.
     pub key: PassListKey,
     pub name: &'a str,
     /// AOS, or the start of the list.
     pub aos: Timestamp,
     /// LOS, or the end of the list.
     pub los: Timestamp,
-    /// The satellite is up already at the start of the list.
+    /// `true` if the satellite is already up at the start of the list.
     pub starts_before: bool,
-    /// The satellite is still up at the end of the list.
+    /// `true` if the satellite is still up at the end of the list.
     pub ends_after: bool,
     pub max_elevation_deg: f64,
     pub aos_azimuth_deg: f64,
     pub los_azimuth_deg: f64,
     /// Trackability; `None` while unknown.
     pub verdict: Option<Verdict<'a>>,
-    /// Seconds above the horizon mask; `None` where it cuts nothing off.
+    /// Time above the horizon mask, seconds; `None` if the mask cuts nothing off.
     pub clear_s: Option<f64>,
-    /// The path over the sky, oldest first.
+    /// Path over the sky, oldest sample first.
     pub path: &'a [Sample],
 }
 
@@ -71,32 +71,33 @@ pub struct PassListModel<'a> {
     pub total: usize,
     /// Names of the groups of the catalogue.
     pub groups: &'a [&'a str],
-    /// The pass at an index. Called only for rows in view.
+    /// Function that returns the pass at an index; the list calls it only for rows in view.
     pub row: &'a dyn Fn(usize) -> Option<PassRow<'a>>,
-    /// The index of a pass in the list; must be fast.
+    /// Function that returns the index of a pass in the list; it must be fast.
     pub place: &'a dyn Fn(PassListKey) -> Option<usize>,
-    /// The keys of all rows.
+    /// Function that returns the keys of all rows.
     pub keys: &'a dyn Fn() -> Arc<[PassListKey]>,
     pub selected: Option<PassListKey>,
-    /// The satellites whose passes are listed.
+    /// Satellites whose passes the list shows.
     pub scope: Scope,
-    /// Span of the list.
+    /// Span of the list, hours.
     pub span_h: u32,
-    /// Elevation of AOS and LOS.
+    /// Elevation of AOS and LOS, degrees.
     pub aos_elevation_deg: f64,
-    /// The elevation floor.
+    /// Elevation floor, degrees.
     pub floor_deg: f64,
     /// State of the search for the list.
     pub work: Work,
-    /// Number of satellites searched, and time of the search; `None` before the first search.
+    /// Number of satellites searched and time of the search; `None` before the first search.
     pub made: Option<(usize, Timestamp)>,
-    /// Why the station and its list of satellites may not be changed, nor a file be saved.
+    /// Reason why the operator may not change the station or its list of satellites, nor save a
+    /// file.
     pub lock: Option<&'static str>,
-    /// Rows have thumbnails.
+    /// `true` if rows have thumbnails.
     pub thumbnails: bool,
-    /// The sentence shown when there are no rows.
+    /// Sentence for a list without rows.
     pub empty: &'a str,
-    /// Shows the entries of a pass in the menu of the row with this id.
+    /// Function that shows the menu entries of a pass for the row with this id.
     pub menu: &'a PassMenu<'a>,
 }
 
@@ -107,15 +108,15 @@ pub struct PassListState {
     /// The selected pass in the last frame.
     shown: Option<PassListKey>,
     scroll: Scroll,
-    /// The row at the upper edge and its pass.
+    /// The row at the upper edge, and its pass.
     top: Option<(usize, PassListKey)>,
-    /// The list of the last frame with rows, and what it was filtered by.
+    /// Scope, text and filters of the last frame with rows.
     listed: Option<(Scope, String, Arrangement)>,
 }
 
 impl PassListState {
-    /// Returns `true` if the selection has changed since the last frame. In a new list the AOS of
-    /// the same pass may differ slightly.
+    /// Returns `true` if the selection has changed since the last frame. The AOS of the same pass
+    /// may differ slightly in a new list.
     fn is_news(&mut self, selected: Option<PassListKey>) -> bool {
         let before = std::mem::replace(&mut self.shown, selected);
         match (before, selected) {
@@ -127,8 +128,8 @@ impl PassListState {
         }
     }
 
-    /// The row at which a list opens that was not there in the last frame, or was filtered in another
-    /// way. In the list of all satellites hundreds of passes have begun, the first of them hours ago.
+    /// Returns the first visible row of a new or newly filtered list. In the list of all satellites
+    /// hundreds of passes have begun, the first of them hours ago.
     fn opens_at(&mut self, model: &PassListModel<'_>) -> Option<usize> {
         let (text, arrangement) = (self.filter.text(), &self.filter.arrangement);
         let is_same = |(scope, before, arranged): &(Scope, String, Arrangement)| {
@@ -144,9 +145,9 @@ impl PassListState {
         })
     }
 
-    /// Number of rows above the upper edge that have gone since the last frame; negative if rows
-    /// were added. Keeps the visible rows in place when passes end; at the very top the list
-    /// moves up.
+    /// Returns the number of rows above the upper edge that are gone since the last frame; negative
+    /// if rows were added. This number keeps the visible rows in place when passes end; at the very
+    /// top the list moves up.
     fn rows_gone_above(&self, model: &PassListModel<'_>) -> f32 {
         let Some((before, key)) = self.top.filter(|_| self.scroll.offset > 0.0) else { return 0.0 };
         (model.place)(key).map_or(0.0, |place| before as f32 - place as f32)
@@ -159,11 +160,11 @@ impl PassListState {
     }
 }
 
-/// Rows with passes that have begun, above the first that has not, where a long list opens.
+/// Number of rows with begun passes at the top of a long list when it opens.
 const BEGUN_SHOWN: usize = 2;
 
-/// Shows the column in `rect`: its head and the scrolling rows.
-/// Scrolls to a pass that was selected elsewhere.
+/// Shows the column in `rect`: its head and the scrolling rows. Scrolls to a pass that was selected
+/// in another view.
 pub fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -173,7 +174,7 @@ pub fn show(
     let mut commands = Vec::new();
     let (head, mut body) = rect.split_top_bottom_at_y(rect.top() + header::HEIGHT);
     header::show(ui, head, model, &mut state.filter, &mut commands);
-    // The search for the few favourites is over before anyone could read a status.
+    // The search for the few favourites ends before anyone could read a status.
     if model.scope == Scope::All {
         let (strip, rest) = body.split_top_bottom_at_y(body.top() + status::HEIGHT);
         status::show(ui, strip, model, &mut commands);

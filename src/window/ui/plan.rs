@@ -1,5 +1,5 @@
-//! The Plan view: the passes of each satellite over time, a lane for each antenna, what the
-//! chosen antenna will carry out, and the selected pass in detail.
+//! The Plan view: the passes of each satellite over time, a lane for each antenna, the list of the
+//! chosen antenna, and the selected pass in detail.
 
 mod bar;
 mod gantt;
@@ -22,17 +22,17 @@ use crate::{
 
 const PADDING: f32 = 16.0;
 const INSPECTOR: f32 = 344.0;
-/// In a window below this width the inspector is a drawer.
+/// Window width below which the inspector is a drawer, points.
 const DRAWER_BELOW: f32 = 1100.0;
-/// In a window below this height there is one lane, and fewer rows.
+/// Window height below which the view has one lane and fewer rows, points.
 const LOW_BELOW: f32 = 800.0;
-/// Widest Gantt labels, and those of the lanes.
+/// Max width of the Gantt labels and of the lane labels, points.
 const LABELS: f32 = 208.0;
 
-/// The ring of a focused list lies so far within it.
+/// Inset of the focus ring within a focused list, points.
 const RING: f32 = 4.0;
 
-/// Draws the view. The inspector has room beside it if `window` is wide enough.
+/// Draws the view. The inspector stands next to it if `window` is wide enough.
 pub fn show(
     ui: &mut Ui,
     window: Rect,
@@ -58,7 +58,7 @@ pub fn show(
     let requested = gantt::height(satellites.len().min(if is_low { 8 } else { usize::MAX }));
     let (top, rest) = rest.split_top_bottom_at_y(rest.top() + requested.min(max));
     let (middle, bottom) = rest.split_top_bottom_at_y(rest.top() + lanes::height(lanes));
-    // A drawer takes the pointer.
+    // A drawer takes the pointer from the views below it.
     let visible =
         |part: Rect| if has_drawer && side > 0.0 { part.with_max_x(right.left()) } else { part };
     gantt::show(ui, visible(top), model, &satellites, state, commands);
@@ -71,8 +71,8 @@ pub fn show(
     state.forget_old_undo(model.now);
 }
 
-/// Shows that a list of passes has the focus. It is one stop of Tab, and the arrows go through the
-/// passes as they do anywhere in the view.
+/// Shows that a list of passes has the focus. The list is one Tab stop, and the arrow keys move
+/// through the passes as everywhere in the view.
 fn show_focus(ui: &Ui, list: &Response) {
     if list.has_focus() {
         let arrows = EventFilter {
@@ -85,7 +85,7 @@ fn show_focus(ui: &Ui, list: &Response) {
     }
 }
 
-/// The command by which the operator chooses a pass for the schedule, or leaves it to that.
+/// Returns the command that includes or excludes a pass; `take: None` leaves it to the schedule.
 fn choose(planned: &PlannedPass<'_>, take: Option<Take>) -> contract::Command {
     let predicted = planned.predicted;
     contract::Command::ChoosePass {

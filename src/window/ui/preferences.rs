@@ -45,12 +45,12 @@ use satellites::SatellitesState;
 use search::Search;
 
 const PADDING: f32 = 16.0;
-/// Height of the bar above a page, and in a small window.
+/// Height of the bar above a page: default, and in a small window, points.
 const HEAD: [f32; 2] = [56.0, 44.0];
-/// Size of the view below which it is small.
+/// Size below which a view counts as small, points.
 const SMALL_BELOW: [f32; 2] = [1120.0, 640.0];
 
-/// Edited settings, and the result of the last saving.
+/// Edited settings, and the result of the last save.
 #[derive(Default)]
 pub struct PreferencesState {
     draft: Option<(Station, Draft)>,
@@ -66,11 +66,11 @@ pub struct PreferencesState {
 #[derive(Default)]
 struct FormState {
     focus_target: FocusTarget,
-    /// The preview is unfolded, where it is a fold.
+    /// `true` if the fold of the preview is open.
     preview_is_open: bool,
     satellites: SatellitesState,
     rules: RulesState,
-    /// A peak of the Sun or the Moon that is typed.
+    /// A peak of the Sun or the Moon that the operator enters.
     peak: antenna::peaks::TypedPeak,
 }
 
@@ -78,7 +78,7 @@ struct FormState {
 struct Places {
     list: Rect,
     page: Rect,
-    /// Height of the bar above the page.
+    /// Height of the bar above the page, points.
     head: f32,
     save_bar: Rect,
 }
@@ -103,8 +103,8 @@ impl PreferencesState {
         self.draft.as_ref().is_some_and(|(station, draft)| *draft != Draft::new(station))
     }
 
-    /// Drops the draft, because the station has changed elsewhere. Callers ask the operator
-    /// first if something is typed.
+    /// Discards the draft, because the station has changed elsewhere. Callers ask the operator
+    /// first if there are edits.
     pub fn forget(&mut self) {
         self.draft = None;
         self.horizon.forget();
@@ -130,7 +130,7 @@ impl PreferencesState {
         });
     }
 
-    /// Takes the time of saving the settings, or the failure.
+    /// Takes the time of a save, or its error.
     pub fn saved(&mut self, result: Result<Timestamp, String>) {
         if result.is_ok() {
             self.draft = None;
@@ -224,7 +224,7 @@ fn show_page(
     }
 }
 
-/// Shows a page of cards alone.
+/// Shows a page that consists only of cards.
 fn cards(
     ui: &mut Ui,
     rect: Rect,

@@ -16,55 +16,55 @@ use super::{text, theme, widgets::paint};
 use crate::{astro::HorizonMask, plan::Sample, ui::time_axis::TimeAxis};
 pub use past::PastModel;
 
-/// Padding at the left and the right edge.
+/// Padding at the left and the right edge, points.
 const PADDING: f32 = 16.0;
-/// Centre of the line with the title, from the top.
+/// Centre of the line with the title, from the top, points.
 const HEAD_Y: f32 = 19.0;
-/// Top of the plots, from the top.
+/// Distance of the plots from the top, points.
 const PLOTS_TOP: f32 = 45.0;
-/// Width of the left scale.
+/// Width of the left scale, points.
 const LEFT_SCALE: f32 = 42.0;
-/// Width of the right scale.
+/// Width of the right scale, points.
 const RIGHT_SCALE: f32 = 44.0;
-/// Gap between the two plots.
+/// Gap between the two plots, points.
 const PLOT_GAP: f32 = 10.0;
-/// Height below the plots for the times.
+/// Height below the plots for the times, points.
 const TIMES: f32 = 25.0;
-/// Minimum height of the upper plot; with less room nothing is shown.
+/// Min height of the upper plot, points; with less room the profile is empty.
 const MIN_PLOT: f32 = 24.0;
 
-/// The selected pass. Samples are oldest first.
+/// The selected pass, with samples in order of time.
 #[derive(Debug, Clone, Copy)]
 pub struct ProfileModel<'a> {
     pub now: Timestamp,
     pub name: &'a str,
-    /// The predicted path from the beginning to the end of the pass.
+    /// Predicted path from the begin to the end of the pass.
     pub track: &'a [Sample],
-    /// The highest point of the pass.
+    /// Sample at the highest point of the pass.
     pub tca: Sample,
-    /// The pass goes on beyond the first or the last sample.
+    /// `true` if the pass continues beyond the first or the last sample.
     pub cut: bool,
     /// The horizon mask of the site.
     pub mask: Option<&'a HorizonMask>,
-    /// Time and angle between satellite and beam axis, in degrees. A value that is not finite
+    /// Times, and the angles between satellite and beam axis, degrees. A value that is not finite
     /// breaks the line.
     pub errors: &'a [(Timestamp, f32)],
-    /// Half the beam width.
+    /// Half of the beam width, degrees.
     pub half_beam_deg: f64,
-    /// A time that is marked elsewhere.
+    /// Time that another view marks.
     pub marked: Option<Timestamp>,
 }
 
 /// State of the profile, kept from frame to frame.
 #[derive(Debug, Clone, Default)]
 pub struct ProfileState {
-    /// The time that the arrow keys mark.
+    /// Time that the arrow keys mark.
     cursor: Option<Timestamp>,
-    /// Begin of the past track that is looked at.
+    /// Begin of the past track that the operator has opened.
     past: Option<Timestamp>,
 }
 
-/// Shows the profile in `rect`; designed for 392 by 208 points. Returns the time that the
+/// Shows the profile in `rect`; the design size is 392 by 208 points. Returns the time that the
 /// operator marks in it.
 pub fn show(
     ui: &mut Ui,
@@ -132,8 +132,7 @@ fn empty(ui: &Ui, rect: Rect, sentence: &str) {
     paint::text_in(ui, room, Align2::CENTER_CENTER, sentence, text::body(), colour);
 }
 
-/// Paints the line of the present through both plots.
-/// The axis from the first to the last sample; `None` if no time lies between them.
+/// Returns the time axis from the first to the last sample; `None` if no time lies between them.
 fn axis(track: &[Sample], rect: Rect) -> Option<TimeAxis> {
     TimeAxis::new(track.first()?.time, track.last()?.time, rect.x_range())
 }

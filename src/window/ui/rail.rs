@@ -8,34 +8,34 @@ use super::{
     widgets::paint,
 };
 
-/// Width with icons and words.
+/// Width of the rail with icons and words, points.
 pub const WIDTH: f32 = 72.0;
-/// Width with icons only.
+/// Width of the rail with only icons, points.
 pub const SMALL_WIDTH: f32 = 48.0;
-/// In a window below this width the rail has icons only.
+/// Window width below which the rail has only icons, points.
 pub const SMALL_BELOW: f32 = 1200.0;
 
-/// Padding above the first entry and below the last.
+/// Padding above the first entry and below the last, points.
 const EDGE: f32 = 8.0;
-/// Gap between two entries.
+/// Gap between two entries, points.
 const GAP: f32 = 4.0;
 
 #[derive(Debug, Clone, Copy)]
 pub struct RailEntry<'a> {
     pub icon: Icon,
     pub word: &'a str,
-    /// The view is shown now.
+    /// `true` if this view is open.
     pub active: bool,
-    /// Number of typed values in it that are not applied.
+    /// Number of edits in the view that are not applied.
     pub edits: usize,
 }
 
-/// The width for a window of this width.
+/// Returns the width of the rail for a window of this width, points.
 pub fn width(window_width: f32) -> f32 {
     if window_width < SMALL_BELOW { SMALL_WIDTH } else { WIDTH }
 }
 
-/// Shows the entries in `rect` and returns the index of a clicked one.
+/// Shows the entries in `rect`. Returns the index of a clicked entry.
 pub fn show(ui: &mut Ui, rect: Rect, entries: &[RailEntry<'_>]) -> Option<usize> {
     let builder = UiBuilder::new().id_salt("rail").max_rect(rect);
     ui.scope_builder(builder, |ui| fill(ui, rect, entries)).inner
@@ -54,15 +54,16 @@ fn fill(ui: &Ui, rect: Rect, entries: &[RailEntry<'_>]) -> Option<usize> {
     clicked
 }
 
-/// The entries at the foot that were clicked.
+/// Clicks on the entries at the foot of the rail.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FootClicks {
     pub view: bool,
-    /// The list of keys.
+    /// `true` if the operator clicked the list of keys.
     pub keys: bool,
 }
 
-/// Shows a view at the foot of the rail in `rect`, and the button for the list of keys below it.
+/// Shows a view entry at the foot of the rail in `rect`, with the button for the list of keys below
+/// it.
 pub fn show_foot(ui: &mut Ui, rect: Rect, view: &RailEntry<'_>) -> FootClicks {
     let keys = RailEntry { icon: Icon::Question, word: "Keys", active: false, edits: 0 };
     let keys_top = rect.bottom() - EDGE - cell_height(rect);

@@ -1,8 +1,8 @@
-//! The tree for screen readers in the order in which the window is read.
+//! Reading order of the window for screen readers.
 //!
-//! A view draws first what has a fixed size, such as the buttons at the right of a bar, and then what
-//! gets the rest. The tree has what was drawn first at its beginning; here, what stands together is
-//! put into the order of the window: down each column, along each row.
+//! A view draws parts of a fixed size first, such as the buttons at the right of a bar, and then
+//! the rest. The accessibility tree therefore starts with the parts drawn first. This module sorts
+//! neighbouring parts into the order of the window: down each column, along each row.
 
 use std::collections::HashMap;
 
@@ -11,10 +11,10 @@ use egui::{
     accesskit::{Node, NodeId},
 };
 
-/// Points by which two places may lie on each other and still stand beside each other.
+/// Max overlap of two places that still count as side by side, points.
 const NEAR: f32 = 0.5;
 
-/// Orders the tree of every frame.
+/// Plugin that sorts the accessibility tree of every frame.
 #[derive(Debug, Default)]
 pub(super) struct ReadingOrder;
 
@@ -27,7 +27,7 @@ impl Plugin for ReadingOrder {
         let Some(update) = &mut output.platform_output.accesskit_update else { return };
         let spots = Spots::new(ctx, &update.nodes);
         for (_, node) in &mut update.nodes {
-            // The marks of a drawing have an order of their own, such as that of time.
+            // The marks of a drawing have their own order, such as order of time.
             if node.role() != Role::Canvas && node.children().len() > 1 {
                 let children = spots.in_order(node.children());
                 node.set_children(children);
@@ -36,7 +36,7 @@ impl Plugin for ReadingOrder {
     }
 }
 
-/// The part of a node that can be seen.
+/// The visible part of a node.
 #[derive(Debug, Clone, Copy)]
 struct Spot {
     layer: LayerId,
@@ -44,8 +44,8 @@ struct Spot {
 }
 
 impl Spot {
-    /// Returns `true` if it is read before `other`: it is above it in its column or left of it in
-    /// its row.
+    /// Returns `true` if screen readers read it before `other`: it stands above `other` in the same
+    /// column, or left of it in the same row.
     fn is_before(self, other: Self) -> bool {
         let (a, b) = (self.place, other.place);
         let columns = a.x_range().intersection(b.x_range()).span();
@@ -56,7 +56,7 @@ impl Spot {
     }
 }
 
-/// Visible parts of all nodes.
+/// The visible parts of all nodes.
 struct Spots(HashMap<NodeId, Spot>);
 
 impl Spots {
@@ -78,7 +78,8 @@ impl Spots {
         spots
     }
 
-    /// Adds a node with what it holds. A container is where its content is, whatever room it has.
+    /// Adds a node and its content. The place of a container is the place of its content,
+    /// regardless of the container's size.
     fn add(
         &mut self,
         id: NodeId,
@@ -104,18 +105,18 @@ impl Spots {
         Some(spot)
     }
 
-    /// Nodes in the order in which they are read. Those between which there is no order keep theirs,
-    /// and what follows on each other stays together.
+    /// Returns the nodes in reading order. Nodes without a defined order keep theirs, and
+    /// overlapping neighbours stay together.
     fn in_order(&self, nodes: &[NodeId]) -> Vec<NodeId> {
         struct Left {
             id: NodeId,
             spot: Option<Spot>,
-            /// Number of the remaining others that are read before it.
+            /// Number of remaining nodes that screen readers read before this node.
             before: usize,
         }
         let is_before =
             |a: Option<Spot>, b: Option<Spot>| a.zip(b).is_some_and(|(a, b)| a.is_before(b));
-        // Looked up once: each is compared with each.
+        // The map is read once per node, because the code compares each node with each.
         let spots: Vec<Option<Spot>> = nodes.iter().map(|id| self.0.get(id).copied()).collect();
         let before = |spot: Option<Spot>| {
             spots.iter().filter(|maybe_spot| is_before(**maybe_spot, spot)).count()

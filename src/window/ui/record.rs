@@ -1,4 +1,4 @@
-//! The Record view: the passes that antennas have tracked, and what became of each.
+//! The Record view: the passes that antennas have tracked, and their results.
 
 mod bar;
 mod correct;
@@ -23,17 +23,17 @@ use super::{text, theme};
 use crate::model::{Model, UiCommand};
 
 const PADDING: f32 = 16.0;
-/// Width of the list of passes.
+/// Width of the list of passes, points.
 const LIST: f32 = 320.0;
-/// In a window below this width the list is a drawer.
+/// Window width below which the list is a drawer, points.
 const DRAWER_BELOW: f32 = 1100.0;
-/// In a report below this width the tables stand one below the other.
+/// Report width below which the tables stand one below the other, points.
 const TABLES_BELOW: f32 = 1000.0;
-/// Least height of the path and the curves.
+/// Min height of the path and the curves, points.
 const DRAWINGS: f32 = 384.0;
-/// Least and most width of the path, unless the drawings are higher.
+/// Min and max width of the path, points; higher drawings may be wider.
 const PATH: (f32, f32) = (280.0, 400.0);
-/// Least height of the tables below them.
+/// Min height of the tables below the drawings, points.
 const TABLES: f32 = 276.0;
 
 /// Draws the view.
@@ -53,7 +53,7 @@ pub fn show(
     let is_listed = !has_drawer || state.list_is_open;
     let list_width = if is_listed { LIST } else { 0.0 };
     let (left, right) = rest.split_left_right_at_x(rest.left() + list_width);
-    // A drawer lies over the report and takes the pointer.
+    // A drawer covers the report and takes the pointer.
     if is_listed {
         list::show(ui, left, model, state);
     }
@@ -69,7 +69,7 @@ pub fn show(
     state.ask(model, commands);
 }
 
-/// Words in place of a report.
+/// Shows a text in place of a report.
 fn nothing(ui: &mut Ui, rect: Rect, model: &Model) {
     let t = theme::tokens(ui);
     let place = rect.shrink2(vec2(PADDING, PADDING));
@@ -102,7 +102,7 @@ fn show_report(
             let rows = explain::height(opened);
             let tables =
                 if is_wide { rows.max(facts::HEIGHT).max(TABLES) } else { rows + facts::HEIGHT };
-            // Space left in a large window makes the drawings larger.
+            // The drawings take the spare height of a large window.
             let drawings = (rest.height() - verdict - tables).max(DRAWINGS);
             let (_, place) = ui.allocate_space(vec2(width, drawings));
             let side = (0.344 * width).clamp(PATH.0, PATH.1.max(drawings));

@@ -1,4 +1,4 @@
-//! The strip over a replay: what is shown, and how it goes on.
+//! The strip above a replay: its content and its controls.
 
 mod end;
 mod scrubber;
@@ -28,20 +28,20 @@ use crate::{
 };
 
 pub const HEIGHT: f32 = 56.0;
-/// Steps of the arrows, seconds; the long one with Shift.
+/// Steps of the arrow keys, seconds; the long step with Shift.
 pub const STEP_S: f64 = 1.0;
 pub const LONG_STEP_S: f64 = 10.0;
-/// The answer to a command.
+/// Answer to a command that a replay refuses.
 pub const REFUSED: &str = "Not done: this is a replay. Leave it first.";
-/// A replay takes nothing from STOP.
+/// Text about STOP, which keeps working in a replay.
 const STOP_WORKS: &str = "STOP stops the live antennas.";
 const STOP_IN_SHORT: &str = "STOP is live";
-/// Least width of the bar of the stretch, beside words.
+/// Min width of the bar next to words, points.
 const MIN_BAR: f32 = 80.0;
 
-/// From this width on the strip has room for everything.
+/// Min width of a strip with all controls, points.
 const WIDE: f32 = 1360.0;
-/// From this width on it has the keys of passes.
+/// Min width of a strip with the buttons for passes, points.
 const PASS_KEYS_FROM: f32 = 720.0;
 const HATCHED: f32 = 72.0;
 const GAP: f32 = 8.0;
@@ -53,24 +53,23 @@ const KEY: f32 = 36.0;
 const SMALL_KEY: f32 = 26.0;
 const SPEEDS_WIDTH: f32 = 225.0;
 const SPEED: f32 = 52.0;
-/// Thickness of the frame around a replay.
+/// Thickness of the frame around a replay, points.
 const FRAME: f32 = 3.0;
 
-/// The reason why controls are locked that would change something or save a file.
+/// Reason why controls are locked that would change something or save a file.
 pub const LOCKED: &str = "Replay. Leave it first.";
 
-/// Returns [`LOCKED`] in a replay.
+/// Returns [`LOCKED`] in a replay, otherwise `None`.
 pub fn lock(model: &Model) -> Option<&'static str> {
     model.replay.as_ref().map(|_| LOCKED)
 }
 
-/// The reason why the controls of an antenna are locked.
+/// Returns the reason why the controls of an antenna are locked.
 pub fn locked(antenna: &str) -> String {
     format!("Replay. Leave it to command {antenna}.")
 }
 
-/// Returns `true` if the keys of a replay work: no control has the focus that takes some of them
-/// itself.
+/// Returns `true` if the keys of a replay work. A focused control may need some of these keys.
 pub fn takes_keys(ui: &Ui) -> bool {
     ui.memory(egui::Memory::focused).is_none_or(|focused| focused == scrubber::id())
 }
@@ -147,7 +146,7 @@ pub fn show(
     }
 }
 
-/// The place of the button at the right end of the strip.
+/// Returns the place of a button at the right end of the strip.
 fn at_the_end(ui: &Ui, strip: Rect, button: Button<'_>) -> Rect {
     let height = height_of_buttons(strip);
     let size = vec2(button.width(ui), height);
@@ -159,7 +158,7 @@ fn height_of_buttons(strip: Rect) -> f32 {
     if strip.height() >= HEIGHT { BUTTON } else { SMALL_HEIGHT }
 }
 
-/// Says in a narrow strip that STOP works, and returns the room after the words.
+/// Shows the text about STOP in a narrow strip. Returns the room after the text.
 fn after_stop_works(ui: &Ui, rect: Rect) -> Rect {
     let font = text::small();
     let has_room = paint::text_width(ui, STOP_WORKS, font.clone()) + GAP + MIN_BAR <= rect.width();
@@ -170,7 +169,7 @@ fn after_stop_works(ui: &Ui, rect: Rect) -> Rect {
     rect.with_min_x(drawn.right() + GAP)
 }
 
-/// Draws the frame around a replay; its strip is the upper side.
+/// Draws the frame around a replay; the strip is its upper side.
 pub fn frame(ui: &Ui, rect: Rect) {
     let stroke = Stroke::new(FRAME, theme::tokens(ui).warn);
     let inner = rect.shrink(FRAME / 2.0);
@@ -191,7 +190,7 @@ fn in_words(speed: i32) -> String {
     format!("{speed}×")
 }
 
-/// Outcome of the last jump, or the reason why the moment is not shown.
+/// Returns the outcome of the last jump, or the reason why the replay cannot show the time.
 fn news(replay: &Replayed) -> Option<String> {
     let side = |is_next: bool| if is_next { "later" } else { "earlier" };
     let age = |start, end| format::age(seconds_between(start, end));
@@ -218,7 +217,7 @@ fn news(replay: &Replayed) -> Option<String> {
     })
 }
 
-/// The whole of the news, for whoever points at it.
+/// Returns the complete news for the tool-tip.
 fn whole_news(replay: &Replayed) -> Option<String> {
     let (start, end) = match (&replay.news, &replay.problem) {
         (
@@ -250,7 +249,7 @@ fn hatch(ui: &Ui, rect: Rect, t: &Tokens) {
     }
 }
 
-/// The pass before and the event before, backward, forward, the event after and the pass after.
+/// Shows the buttons: previous pass, previous event, backward, forward, next event and next pass.
 fn transport(
     ui: &Ui,
     place: &mut dyn FnMut() -> Rect,
@@ -296,7 +295,7 @@ fn transport(
     }
 }
 
-/// A key that goes to an event, or to a pass.
+/// Shows a button that jumps to an event or to a pass.
 fn jump(ui: &Ui, rect: Rect, name: &str, command: ReplayCommand, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     let clicked = key(ui, name, rect, name, false).clicked();
@@ -329,7 +328,7 @@ fn key(ui: &Ui, salt: &str, rect: Rect, name: &str, is_on: bool) -> Response {
     response.on_hover_text(name)
 }
 
-/// A triangle that points to the left below zero; `to_stop`: with a bar at its tip.
+/// Draws a triangle that points to the left if `sign` is negative; `to_stop` adds a bar at its tip.
 fn triangle(ui: &Ui, rect: Rect, sign: f32, to_stop: bool, colour: Color32) {
     let (position, size) = (rect.center(), 5.0);
     let tip = position + vec2(sign * size, 0.0);
@@ -342,7 +341,7 @@ fn triangle(ui: &Ui, rect: Rect, sign: f32, to_stop: bool, colour: Color32) {
     }
 }
 
-/// The speeds, or in a narrow strip the one in use, which steps to the next.
+/// Shows the speeds. A narrow strip shows only the current speed; a click selects the next one.
 fn speeds(
     ui: &Ui,
     place: &mut dyn FnMut(f32) -> Rect,

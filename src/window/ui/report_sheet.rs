@@ -17,8 +17,8 @@ use super::{
 };
 use crate::contract::record::OpenedPass;
 
-/// The page of a pass as HTML, printed at `printed`. Its times are of the day on which the pass began,
-/// unless they carry a day.
+/// Returns the page of a pass as HTML, printed at `printed`. Times without a day belong to the day
+/// on which the pass began.
 pub fn html(opened: &OpenedPass, printed: Timestamp) -> String {
     let report = &opened.pass.report;
     let word = record::verdict(report.report.verdict).to_lowercase();

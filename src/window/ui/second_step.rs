@@ -1,6 +1,6 @@
-//! The second step before a command that ends a track, or that lets a unit start by itself: a
-//! question that names what ends. It stands behind all views, so that mouse, key and screen
-//! reader meet the same one. Standby and STOP never take it.
+//! The second step before a command that ends a track or lets a unit start unattended: a question
+//! that names the consequence. All views share it, so that mouse, key and screen reader get the
+//! same question. Standby and STOP never need it.
 
 use super::{confirm::Question, format, state_sentence::short, words};
 use crate::{
@@ -14,8 +14,8 @@ use crate::{
     model::{Model, UiCommand},
 };
 
-/// Takes the first of the `commands` from the index `start` on that needs a second step out
-/// of them; returns its question.
+/// Removes the first of the `commands` from index `start` on that needs a second step. Returns its
+/// question.
 pub(super) fn ask(model: &Model, start: usize, commands: &mut Vec<UiCommand>) -> Option<Question> {
     let found = commands.iter().enumerate().skip(start);
     let mut found = found.filter_map(|(index, command)| Some((index, question(model, command)?)));
@@ -24,7 +24,7 @@ pub(super) fn ask(model: &Model, start: usize, commands: &mut Vec<UiCommand>) ->
     Some(question)
 }
 
-/// The question before `command`; `None` if it needs none.
+/// Returns the question before `command`; `None` if it needs none.
 fn question(model: &Model, command: &UiCommand) -> Option<Question> {
     if let UiCommand::AskToTrack(pass) = command {
         return before_a_track(model, *pass);
@@ -54,7 +54,7 @@ fn question(model: &Model, command: &UiCommand) -> Option<Question> {
     Some(Question { text, yes, command: command.clone() })
 }
 
-/// The question before parking by key; the button of the card is held instead.
+/// Returns the question before parking by key. The button of the card uses a hold instead.
 pub(super) fn before_parking(antenna: &AntennaModel) -> Question {
     let name = &antenna.config.name;
     let ends = antenna.tracked_name().map_or_else(
@@ -68,7 +68,7 @@ pub(super) fn before_parking(antenna: &AntennaModel) -> Question {
     }
 }
 
-/// The question before a track, which names the one that it ends.
+/// Returns the question before a track, which names the track that it ends.
 fn before_a_track(model: &Model, pass: PassListKey) -> Option<Question> {
     let (antenna, predicted) = (model.antenna()?, model.pass_lists.find(pass)?);
     let track = contract::Command::Track { antenna: antenna.id(), pass, is_agreed: false };
@@ -86,7 +86,8 @@ fn before_a_track(model: &Model, pass: PassListKey) -> Option<Question> {
     Some(question(model, &track).unwrap_or_else(default_question))
 }
 
-/// The way to the begin of a pass, or to where the antenna would meet one under way.
+/// Describes the slew to the start of a pass, or to the point where the antenna would join a
+/// current pass.
 fn way_there(model: &Model, antenna: &AntennaModel, predicted: &PredictedPass) -> Option<String> {
     let can = antenna.variant().capabilities;
     let measured = antenna.snapshot.state.measured.filter(|_| antenna.is_live())?;
@@ -103,7 +104,7 @@ fn way_there(model: &Model, antenna: &AntennaModel, predicted: &PredictedPass) -
     ))
 }
 
-/// Outcome of a command that would end a track, and the words of its button.
+/// Returns the consequence of a command that would end a track, and the label of its button.
 fn step_text(
     model: &Model,
     antenna: &AntennaModel,
@@ -130,7 +131,7 @@ fn step_text(
     }
 }
 
-/// The track of a pass in words, with the time that the antenna would wait for it.
+/// Describes the track of a pass, with the time that the antenna would wait for it.
 fn tracking(model: &Model, pass: PassListKey) -> String {
     let (_, aos) = pass;
     let listed = model.pass_lists.find(pass);
@@ -142,7 +143,7 @@ fn tracking(model: &Model, pass: PassListKey) -> String {
     }
 }
 
-/// End of the present track.
+/// Returns the end of the current track.
 fn end(model: &Model, antenna: &AntennaModel) -> Option<jiff::Timestamp> {
     let snapshot = &antenna.snapshot;
     let window = snapshot.state.on_board.window.filter(|_| !antenna.follows());

@@ -1,5 +1,5 @@
-//! The set-up of a station in four steps, beside the running demonstration. Nothing is written
-//! before the last one.
+//! The set-up of a station in four steps, during the demonstration. Azel writes nothing before the
+//! last step.
 
 mod antennas;
 mod draft;
@@ -26,11 +26,11 @@ use crate::{
     model::{Model, UiCommand},
 };
 
-/// Below this width of the view, the steps are a strip and the right panel is folded.
+/// View width below which the steps are a strip and the right panel is folded, points.
 const NARROW_BELOW: f32 = 1200.0;
 const PADDING: f32 = 24.0;
 
-/// Typed values, and the step that is shown.
+/// Entered values, and the current step.
 #[derive(Default)]
 pub struct SetupState {
     step: Step,
@@ -38,19 +38,19 @@ pub struct SetupState {
     draft: Option<SetupDraft>,
     satellites: ObjectSearch,
     add: super::elements::AddState,
-    /// Why the station was not saved.
+    /// Reason why Azel could not save the station.
     problem: Option<String>,
-    /// The head of the step is to have the keyboard focus.
+    /// `true` if the head of the step should get the keyboard focus.
     wants_focus: bool,
 }
 
 impl SetupState {
-    /// Returns `true` if closing would lose typed values.
+    /// Returns `true` if closing would lose entered values.
     pub fn is_edited(&self) -> bool {
         self.draft.as_ref().is_some_and(SetupDraft::is_edited) || self.add.is_edited()
     }
 
-    /// Takes the outcome of saving a station: after a success nothing is left to set up.
+    /// Takes the outcome of saving a station; a success resets the set-up.
     pub fn saved(&mut self, result: &Result<Timestamp, String>) {
         match result {
             Ok(_) => *self = Self::default(),
@@ -64,7 +64,8 @@ impl SetupState {
         self.wants_focus = true;
     }
 
-    /// Outcome of a step. The antennas are not done while the link of one has not been tested.
+    /// Returns the outcome of a step. The antennas are not done while the link of one antenna is
+    /// untested.
     fn passed(&self, step: Step, draft: &SetupDraft, model: &Model) -> Passed {
         match self.progress.outcome(step) {
             Passed::Done if step == Step::Antennas && draft.has_untested(model) => Passed::NotYet,
@@ -72,7 +73,7 @@ impl SetupState {
         }
     }
 
-    /// Why the operator cannot go on from the step that is shown.
+    /// Returns the reason why the operator cannot continue from the current step.
     fn hindrance(&self, draft: &SetupDraft, model: &Model) -> Option<String> {
         match self.step {
             Step::Site | Step::Antennas | Step::Satellites | Step::End => {
@@ -82,7 +83,7 @@ impl SetupState {
         }
     }
 
-    /// Why the source that is typed in the step that is shown cannot be added.
+    /// Returns the reason why Azel cannot add the source entered in the current step.
     fn unadded(&self, model: &Model) -> Option<String> {
         if self.step != Step::Elements {
             return None;
@@ -91,7 +92,7 @@ impl SetupState {
         Some(format!("This source is not added yet: {reason}."))
     }
 
-    /// Adds the source that is typed in the step that is shown. Returns `true` if there is one.
+    /// Adds the source entered in the current step. Returns `true` if there is one.
     fn add_typed(&mut self, model: &Model, commands: &mut Vec<UiCommand>) -> bool {
         if self.step == Step::Elements
             && let Some(Ok(source)) = self.add.typed(&model.sources)
@@ -102,7 +103,7 @@ impl SetupState {
         false
     }
 
-    /// Shows a step of the list. Adds a source that is typed; one that cannot be added keeps the step.
+    /// Shows another step. Adds an entered source first; an invalid source keeps the current step.
     fn choose(&mut self, step: Step, model: &Model, commands: &mut Vec<UiCommand>) {
         if step == self.step || self.unadded(model).is_some() {
             return;
@@ -113,7 +114,7 @@ impl SetupState {
         self.show_step(step);
     }
 
-    /// Leaves the step as done, unless something hinders it. Adds a source that is typed.
+    /// Completes the step unless a reason prevents it. Adds an entered source first.
     fn go_on(&mut self, draft: &SetupDraft, model: &Model, commands: &mut Vec<UiCommand>) {
         if self.hindrance(draft, model).is_some() {
             return;
@@ -146,7 +147,7 @@ impl SetupState {
     }
 }
 
-/// Draws the view. `takes_keys`: nothing lies over it.
+/// Draws the view. `takes_keys` is `true` if nothing covers the view.
 pub fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -174,7 +175,7 @@ pub fn show(
         so_far::show(ui, right, model, &draft, state.progress);
     }
     let (body, foot) = panels.middle;
-    // The scroll bar has the margin at the right.
+    // The scroll bar uses the right margin.
     let inner = body.with_min_x(body.left() + PADDING).with_max_x(body.right() - 4.0);
     let builder = UiBuilder::new().id_salt(("step", shown)).max_rect(inner);
     ui.scope_builder(builder, |ui| {
@@ -206,8 +207,8 @@ pub fn show(
     state.draft = Some(draft);
 }
 
-/// The head has the focus first where no field has it, for Tab to lead on from there; Tab never leads
-/// to it.
+/// Shows the head of the step. The head has the focus if no field has it, so that Tab continues
+/// from there. Tab never reaches the head itself.
 fn show_head(ui: &mut Ui, id: egui::Id, step: Step) {
     let t = theme::tokens(ui);
     let (title, description) = step.title();
@@ -234,15 +235,15 @@ fn take_keys(
         state.go_back();
         return;
     }
-    // The last step saves; that is left to its button.
+    // The last step saves the station, so only its button completes it.
     if state.step != Step::End
         && ui.input_mut(|input| input.consume_key(Modifiers::ALT, Key::ArrowRight))
     {
         state.go_on(draft, model, commands);
         return;
     }
-    // On a button, Enter presses the button; a search takes it for what it finds, and the form of a
-    // source for the source.
+    // Enter on a button presses the button. In a search or in the form of a source, Enter belongs
+    // to that form.
     let focused = ui.memory(egui::Memory::focused);
     let is_free = focused.is_none_or(|id| id == head);
     let is_for_step = match state.step {

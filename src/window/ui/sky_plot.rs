@@ -59,14 +59,14 @@ pub use zoom::Zoom;
 pub struct SkyPlotState {
     pub layers: Layers,
     pub zoom: Zoom,
-    /// A drawer lies over the place of the legend: only the button below the drawer is shown.
+    /// `true` if a drawer covers the place of the legend, so that only its button is shown.
     pub folds_legend: bool,
-    /// The plot had the keyboard focus in the last frame.
+    /// `true` if the plot had the keyboard focus in the last frame.
     pub has_focus: bool,
     labels: HashMap<Key, Memory>,
-    /// A menu was open in the last frame: a click beside it closes it and means nothing else.
+    /// `true` if a menu was open in the last frame. A click outside then only closes the menu.
     menu_open: bool,
-    /// The direction that the menu of the sky is about.
+    /// Direction of the sky at which the operator opened the menu.
     menu_at: Option<AzEl>,
 }
 
@@ -75,20 +75,21 @@ pub struct SkyPlotState {
 pub struct SkyAnswer {
     /// Catalog number of a satellite chosen with a click or with Enter.
     pub chosen: Option<u32>,
-    /// Place in the station of an antenna chosen with a click or with Enter.
+    /// Index in the station of an antenna chosen with a click or with Enter.
     pub antenna: Option<usize>,
     /// Time of the path under the pointer.
     pub pointed: Option<Timestamp>,
-    /// A click in the sky.
+    /// Direction of a click in the sky.
     pub clicked: Option<AzEl>,
-    /// The click before was the first half of a double click, which shows the whole sky.
+    /// `true` if the previous click was the first half of a double click, which shows the whole
+    /// sky.
     pub takes_click_back: bool,
-    /// The place of the ghost.
+    /// Position of the ghost in the plot.
     pub ghost_at: Option<Pos2>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
-// Independent check boxes.
+// The fields are independent check boxes.
 #[allow(clippy::struct_excessive_bools)]
 pub struct Layers {
     /// Satellites that are not selected.
@@ -124,13 +125,13 @@ impl Default for Layers {
 /// Subject of a menu in the plot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum MenuOf {
-    /// A satellite, by its catalog number, in this direction.
+    /// A satellite with its catalog number and direction.
     Satellite(u32, AzEl),
     /// A direction of the sky.
     Sky(AzEl),
 }
 
-/// Shows the entries of a menu.
+/// Function that shows the entries of a menu.
 pub type ShowMenu<'a> = dyn FnMut(&mut Ui, Id, MenuOf) + 'a;
 
 /// Shows the plot in `rect`, and its menus with `menu`.
@@ -150,7 +151,7 @@ pub fn show(
     let whole = Dome::fitted(rect);
     ui.painter().rect_filled(rect, 0.0, t.bg0);
 
-    // Added before the buttons in the corners, which lie above the canvas.
+    // The canvas comes first, because the buttons in the corners lie above it.
     let canvas = nodes::canvas(ui, rect, scene, whole, &mut state.zoom);
     let takes_click_back = canvas.double_clicked() && !state.zoom.is_whole();
     if takes_click_back {
@@ -198,7 +199,7 @@ pub fn show(
     }
 }
 
-/// The place of the ghost; for an antenna without elevation half-way to the rim.
+/// Returns the position of the ghost; for an antenna without elevation half-way to the rim.
 fn ghost_at(dome: Dome, scene: &SkyScene<'_>) -> Option<Pos2> {
     let on_line = || {
         let azimuth = scene.bearing?.ghost.filter(|azimuth| azimuth.is_finite())?;
@@ -207,8 +208,8 @@ fn ghost_at(dome: Dome, scene: &SkyScene<'_>) -> Option<Pos2> {
     scene.ghost.and_then(|ghost| dome.point(ghost.end)).or_else(on_line)
 }
 
-/// Tells the direction under the pointer, or the time where it points at the path or another
-/// view marks a time. Returns the time under the pointer.
+/// Shows the direction under the pointer, or the time at a marked point of the path. Returns the
+/// time under the pointer.
 fn point_out(
     ui: &Ui,
     rect: Rect,
@@ -231,8 +232,8 @@ fn point_out(
     on_path.map(|sample| sample.time)
 }
 
-/// Paints the layers from the disc up to the selected satellite, and the labels between them: over
-/// the lines, so that none crosses a text, and with their grounds below the marks.
+/// Paints the layers from the disc up to the selected satellite, and the labels between them. The
+/// labels lie above the lines, and their backgrounds lie below the marks.
 fn paint_sky(
     ui: &Ui,
     rect: Rect,
@@ -272,7 +273,7 @@ fn paint_sky(
     let before = std::mem::take(&mut state.labels);
     let mut labels = Labels::new(painter, t, Some(dome), rect.shrink(4.0), before);
     labels.reserve_path(&dome.circle(dome.radius), 4.0);
-    // The name of a stop has few places outside of the disc: it takes the one with the least below.
+    // The name of a stop has few places outside of the disc, so it takes the least covered one.
     for rect in &reserved {
         labels.avoid(*rect, labels::LINE);
     }

@@ -1,4 +1,4 @@
-//! One pass over the whole sky, in a small plot, with the selected antenna.
+//! One pass over the whole sky in a small plot, with the selected antenna.
 
 use egui::{Rect, Ui};
 
@@ -11,7 +11,8 @@ use super::{
 };
 use crate::{astro::Angle, contract::passes::PredictedPass, model::Model, orbit::LookAngles};
 
-/// Draws the plot in `rect`. `look`: where the satellite is now; `None` before the pass.
+/// Draws the plot in `rect`. `look` is the current direction of the satellite; `None` before the
+/// pass.
 pub(super) fn show(
     ui: &Ui,
     rect: Rect,

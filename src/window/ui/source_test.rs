@@ -1,4 +1,4 @@
-//! "Test from here" beside the forms of a unit's web and FTP sources.
+//! The link test "Test from here" next to the forms of a unit's web and FTP sources.
 
 mod reading;
 
@@ -26,12 +26,12 @@ use crate::{
     secret::Secret,
 };
 
-/// A source as typed in a form.
+/// A source as entered in a form.
 #[derive(Debug, Clone, Copy)]
 pub enum TypedSource<'a> {
     /// A web address.
     Web {
-        /// Address as set in the unit.
+        /// Web address as set in the unit.
         url: &'a str,
     },
     /// A file on a server.
@@ -40,29 +40,26 @@ pub enum TypedSource<'a> {
         address: &'a str,
         /// TCP port.
         port: &'a str,
-        /// User name.
         user: &'a str,
-        /// Password of the user.
         password: &'a str,
-        /// Path of the file.
         file: &'a str,
-        /// Name of the satellite as in the file.
+        /// Name of the satellite in the file.
         satellite: &'a str,
     },
 }
 
-/// The operator's choices beside the form.
+/// The operator's choices next to the form.
 #[derive(Default)]
 pub struct SourceTestState {
-    /// Protocol; `None` for the one implied by the port.
+    /// Protocol; `None` for the protocol that the port implies.
     protocol: Option<FileProtocol>,
-    /// The satellite to look for in a file from the web; `None` for the one in the unit.
+    /// Satellite to look for in a file from the web; `None` for the satellite in the unit.
     satellite: Option<String>,
     question: Option<Question>,
 }
 
-/// Draws the button and the outcome of the test, for the unit of the antenna with the index
-/// `antenna`, as wide as `ui`.
+/// Draws the button and the outcome of the test over the whole width of `ui`. `antenna` is the
+/// index of the antenna whose unit has the source.
 pub fn show(
     ui: &mut Ui,
     model: &Model,

@@ -23,12 +23,12 @@ use crate::{
     model::Model,
 };
 
-/// A sentence with its words.
+/// A sentence, split into parts.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Spoken {
-    /// Kind of the sentence.
+    /// Kind of the sentence, which sets its colour.
     pub kind: SentenceKind,
-    /// Parts of the sentence; `true` for a name that must be found at a glance.
+    /// Parts of the sentence; `true` marks a name that must stand out.
     pub parts: Vec<(String, bool)>,
 }
 
@@ -47,12 +47,12 @@ impl Spoken {
         self
     }
 
-    /// The words in one line.
+    /// Returns the sentence as one text.
     pub fn text(&self) -> String {
         self.parts.iter().map(|(text, _)| text.as_str()).collect()
     }
 
-    /// Calls `show` with the sentence as the widget takes it.
+    /// Calls `show` with the sentence in the form of the widget.
     pub fn with_sentence<R>(&self, show: impl FnOnce(&Sentence<'_>) -> R) -> R {
         let spans: Vec<Span<'_>> =
             self.parts.iter().map(|(text, bold)| Span { text, bold: *bold }).collect();
@@ -60,7 +60,7 @@ impl Spoken {
     }
 }
 
-/// The state sentence of `antenna`. The gravest matter takes precedence.
+/// Returns the state sentence of `antenna`. The most severe state takes precedence.
 pub fn state_sentence(model: &Model, antenna: &AntennaModel) -> Spoken {
     lock_out::sentence(antenna)
         .or_else(|| link::sentence(model, antenna))
@@ -106,7 +106,7 @@ fn fault_or_limit(antenna: &AntennaModel) -> Option<Spoken> {
     let state = &antenna.snapshot.state;
     if let Some(check) = state.checks.iter().find(|check| check.forbids_motion()) {
         let words = format!("Motion is locked by a fault: {}. {}", check.name, check.advice);
-        // A unit may go on by itself.
+        // A unit may continue to move without a command.
         let moves = state.measured.is_some_and(|measured| measured.moving());
         let warning = if moves { " It is still moving: STOP ends that." } else { "" };
         return Some(Spoken::new(SentenceKind::Fault).plain(words + warning));
@@ -128,7 +128,7 @@ fn fault_or_limit(antenna: &AntennaModel) -> Option<Spoken> {
     None
 }
 
-/// Says that a request waits until its path is judged.
+/// Returns the sentence for a request that waits until Azel has checked its path.
 fn being_judged(antenna: &AntennaModel) -> Option<Spoken> {
     antenna.snapshot.being_judged.then(|| {
         Spoken::new(SentenceKind::Commanded).plain(
@@ -149,7 +149,7 @@ fn preparing(antenna: &AntennaModel) -> Option<Spoken> {
     )
 }
 
-/// The sentence for a unit that runs its own program, requested by Azel or not.
+/// Returns the sentence for a unit that runs its own program, with or without a request from Azel.
 fn program(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
     let state = &antenna.snapshot.state;
     let program = state.program.filter(|program| program.enabled)?;
@@ -195,7 +195,7 @@ fn program(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
     }
 }
 
-/// The rest of a sentence about an antenna that a unit sends to a pass.
+/// Returns the end of a sentence about an antenna that a unit sends to a pass.
 fn tracking_starts(model: &Model, starts: Option<Timestamp>) -> String {
     starts.map_or_else(
         || ". Its tracking window is not open.".to_owned(),
@@ -290,7 +290,7 @@ fn by_hand(antenna: &AntennaModel) -> Option<Spoken> {
     )
 }
 
-/// A jog in words, with the name of a named speed, whose rate is unknown.
+/// Describes a jog. A named speed appears with its name, because its rate is unknown.
 fn jogging(antenna: &AntennaModel, axis: &str, rate_deg_s: f64) -> String {
     let speeds = antenna.variant().capabilities.jog;
     let max_deg_s = antenna.config.limits.maximum_rate_deg_s;
@@ -348,7 +348,7 @@ fn standing(model: &Model, antenna: &AntennaModel) -> Spoken {
     }
 }
 
-/// The angle that the unit does not report, and why.
+/// Describes the angle that the unit does not report, and the reason.
 pub(super) fn missing_angle(antenna: &AntennaModel) -> Option<&'static str> {
     let can = antenna.variant().capabilities;
     let measured = antenna.snapshot.state.measured?;
@@ -381,7 +381,7 @@ pub(super) fn missing_angle(antenna: &AntennaModel) -> Option<&'static str> {
     }
 }
 
-/// A sentence about the selected pass, which the operator could track.
+/// Returns a sentence about the selected pass, which the operator could track.
 fn next_words(
     selected: Option<(&ListedSatellite, Timestamp, Timestamp)>,
     now: Timestamp,
@@ -397,7 +397,7 @@ fn next_words(
     }
 }
 
-/// The position, such as " at 343.1°, 5.0°"; empty if unknown.
+/// Returns the position, such as " at 343.1°, 5.0°"; empty if unknown.
 fn place(antenna: &AntennaModel) -> String {
     antenna.snapshot.state.measured.map_or_else(String::new, |measured| match measured.pointing {
         Pointing { azimuth: None, elevation: None } => String::new(),
@@ -405,7 +405,7 @@ fn place(antenna: &AntennaModel) -> String {
     })
 }
 
-/// The name without a trailing part in brackets.
+/// Returns the name without a trailing part in brackets.
 pub fn short(name: &str) -> &str {
     name.split_once(" (").map_or(name, |(short, _)| short)
 }

@@ -1,16 +1,16 @@
-//! The type scale: every text in the window has one of these fonts.
+//! The type scale, the only fonts of the window.
 
 use egui::{FontData, FontDefinitions, FontFamily, FontId};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Weight {
-    /// Running text.
+    /// Weight of running text.
     Regular,
-    /// Buttons and names.
+    /// Weight of buttons and names.
     Medium,
-    /// Values and titles.
+    /// Weight of values and titles.
     SemiBold,
-    /// The cardinal points and the word STOP.
+    /// Weight of the cardinal points and the word STOP.
     Bold,
 }
 
@@ -25,62 +25,63 @@ impl Weight {
     }
 }
 
-/// A font of any size; prefer the named ones below.
+/// Returns a font of any size; prefer the named fonts below.
 pub fn sized(size: f32, weight: Weight) -> FontId {
     FontId::new(size, weight.family())
 }
 
-/// UTC clock and the main countdown.
+/// Returns the font of the UTC clock and the main countdown.
 pub fn clock() -> FontId {
     sized(28.0, Weight::SemiBold)
 }
 
-/// Name of the selected object.
+/// Returns the font of the name of the selected object.
 pub fn title() -> FontId {
     sized(20.0, Weight::SemiBold)
 }
 
-/// Countdown in a row, title of a card.
+/// Returns the font of a countdown in a row and of the title of a card.
 pub fn value() -> FontId {
     sized(15.0, Weight::SemiBold)
 }
 
-/// Axes table.
+/// Returns the font of the axes table.
 pub fn axis() -> FontId {
     sized(15.0, Weight::Regular)
 }
 
-/// Sentences.
+/// Returns the font of sentences.
 pub fn body() -> FontId {
     sized(13.0, Weight::Regular)
 }
 
-/// Buttons and names.
+/// Returns the font of buttons and names.
 pub fn body_medium() -> FontId {
     sized(13.0, Weight::Medium)
 }
 
-/// Second lines, tables, chips.
+/// Returns the font of second lines, tables and chips.
 pub fn small() -> FontId {
     sized(12.0, Weight::Regular)
 }
 
-/// Values in second lines and small buttons.
+/// Returns the font of values in second lines and of small buttons.
 pub fn small_strong() -> FontId {
     sized(12.0, Weight::SemiBold)
 }
 
-/// Axis numbers, heads of columns.
+/// Returns the font of axis numbers and column headings.
 pub fn caption() -> FontId {
     sized(11.0, Weight::Regular)
 }
 
-/// Raw frames and hex.
+/// Returns the font of raw frames and hex.
 pub fn raw() -> FontId {
     FontId::new(12.0, FontFamily::Monospace)
 }
 
-/// The fonts of the window. All digits have the same width, so that numbers change in place.
+/// Returns the fonts of the window. All digits have the same width, so that numbers change in
+/// place.
 pub fn definitions() -> FontDefinitions {
     let mut fonts = FontDefinitions::empty();
     let mut add = |family: FontFamily, name: &str, bytes: &'static [u8]| {

@@ -1,4 +1,4 @@
-//! Installs the colours and the fonts in egui.
+//! Installation of the colours and the fonts in egui.
 
 use egui::{Context, CornerRadius, Id, Stroke, TextStyle};
 
@@ -8,30 +8,29 @@ use super::{
 };
 use crate::model::ThemeName;
 
-/// The colours in use, for everything that paints.
+/// Returns the current colours.
 pub fn tokens(ctx: &Context) -> &'static Tokens {
     name(ctx).tokens()
 }
 
-/// The theme in use.
+/// Returns the name of the current theme.
 pub fn name(ctx: &Context) -> ThemeName {
     ctx.data(|data| data.get_temp(Id::unique("azel theme"))).unwrap_or_default()
 }
 
-/// Installs fonts, text styles, the theme, the shape rewriting, the order for screen readers and the
-/// digits of the keyboard.
-/// Call once, when the window opens.
+/// Installs fonts, text styles, the theme and the egui plugins. The plugins rewrite shapes, sort
+/// the accessibility tree and handle digit keys. Call this function once, when the window opens.
 pub fn install(ctx: &Context, theme: ThemeName) {
     ctx.set_fonts(text::definitions());
     ctx.add_plugin(LeanShapes);
     ctx.add_plugin(ReadingOrder);
     ctx.add_plugin(DigitKeys);
-    // The scale is a setting, which keys of the toolkit would change unseen.
+    // The scale is a setting, and the zoom keys of egui would change it without saving.
     ctx.options_mut(|options| options.zoom_with_keyboard = false);
     set(ctx, theme);
 }
 
-/// Changes the theme within one frame; sizes stay as they are.
+/// Changes the theme within one frame; sizes keep their values.
 pub fn set(ctx: &Context, theme: ThemeName) {
     ctx.data_mut(|data| data.insert_temp(Id::unique("azel theme"), theme));
     let egui_theme = match theme {
@@ -56,7 +55,7 @@ fn apply(style: &mut egui::Style, t: &Tokens) {
     style.spacing.button_padding = egui::vec2(12.0, 4.0);
     style.spacing.interact_size = egui::vec2(32.0, 24.0);
 
-    // Content cut at the edge of a scroll area fades, so that the operator sees that it continues.
+    // Content fades at a cut edge of a scroll area, so that the operator sees that it continues.
     let scroll = &mut style.spacing.scroll;
     scroll.dormant_handle_opacity = 0.5;
     scroll.floating_width = 4.0;
@@ -78,7 +77,7 @@ fn apply(style: &mut egui::Style, t: &Tokens) {
     visuals.popup_shadow = egui::Shadow::NONE;
     visuals.text_cursor.blink = false;
     visuals.override_text_color = Some(t.t1);
-    // Hints in empty fields.
+    // The weak colour is for hints in empty fields.
     visuals.weak_text_color = Some(t.t3);
     let widgets = &mut visuals.widgets;
     for widget in [

@@ -5,40 +5,40 @@ use jiff::{Timestamp, tz::TimeZone};
 
 use crate::astro::time::{add_seconds, seconds_between};
 
-/// Minimum width of a range, in points, so that a short pass stays visible.
+/// Min width of a range, points, so that a short pass stays visible.
 const MIN_RANGE: f32 = 3.0;
 
-/// A span of time across a range of x.
+/// A map from a span of time to a range of x.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct TimeAxis {
     start: Timestamp,
-    /// Length, seconds, positive.
+    /// Length of the axis, seconds, positive.
     seconds: f64,
     x: Rangef,
 }
 
 impl TimeAxis {
-    /// The axis from `start` to `end`; `None` if no time lies between them.
+    /// Returns the axis from `start` to `end`; `None` if no time lies between them.
     pub(super) fn new(start: Timestamp, end: Timestamp, x: impl Into<Rangef>) -> Option<Self> {
         (end > start).then(|| Self { start, seconds: seconds_between(start, end), x: x.into() })
     }
 
-    /// The axis of `seconds` from `start` on, at least one.
+    /// Returns the axis of `seconds` from `start` on, at least one second long.
     pub(super) fn lasting(start: Timestamp, seconds: f64, x: impl Into<Rangef>) -> Self {
         Self { start, seconds: seconds.max(1.0), x: x.into() }
     }
 
-    /// The first time.
+    /// Returns the time at the left end of the axis.
     pub(super) fn start(&self) -> Timestamp {
         self.start
     }
 
-    /// The last time.
+    /// Returns the time at the right end of the axis.
     pub(super) fn end(&self) -> Timestamp {
         add_seconds(self.start, self.seconds)
     }
 
-    /// Length in seconds.
+    /// Returns the length of the axis, seconds.
     pub(super) fn seconds(&self) -> f64 {
         self.seconds
     }
@@ -47,12 +47,12 @@ impl TimeAxis {
         (self.start..=self.end()).contains(&time)
     }
 
-    /// The x of a time, which may lie outside the axis.
+    /// Returns the x of a time, which may lie outside the axis.
     pub(super) fn x(&self, time: Timestamp) -> f32 {
         self.x_of_part(seconds_between(self.start, time) / self.seconds)
     }
 
-    /// The x of a time; outside the axis that of the nearer end.
+    /// Returns the x of a time, clamped to the axis.
     pub(super) fn x_within(&self, time: Timestamp) -> f32 {
         self.x_of_part((seconds_between(self.start, time) / self.seconds).clamp(0.0, 1.0))
     }
@@ -61,23 +61,23 @@ impl TimeAxis {
         lerp(self.x.min..=self.x.max, part as f32)
     }
 
-    /// The time at `x`; beyond the axis that of the nearer end.
+    /// Returns the time at `x`, clamped to the axis.
     pub(super) fn time(&self, x: f32) -> Timestamp {
         let part = f64::from((x - self.x.min) / self.x.span()).clamp(0.0, 1.0);
         add_seconds(self.start, part * self.seconds)
     }
 
-    /// Seconds for a distance in points.
+    /// Returns the time for a distance in points, seconds.
     pub(super) fn seconds_across(&self, points: f32) -> f64 {
         f64::from(points / self.x.span()) * self.seconds
     }
 
-    /// Points for one hour.
+    /// Returns the width of one hour, points.
     pub(super) fn hour_width(&self) -> f32 {
         self.x.span() * (3600.0 / self.seconds) as f32
     }
 
-    /// The x range of the time `start` to `end`, cut at the axis and never narrower than visible.
+    /// Returns the x range from `start` to `end`, cut at the axis and at least [`MIN_RANGE`] wide.
     /// `None` if it lies outside the axis.
     pub(super) fn range(&self, start: Timestamp, end: Timestamp) -> Option<Rangef> {
         if end <= self.start || start >= self.end() || end < start {
@@ -90,7 +90,8 @@ impl TimeAxis {
         Some(Rangef::new(left, left + width))
     }
 
-    /// The times on the axis that are whole multiples of `step_s` from midnight UTC, in order.
+    /// Returns the times on the axis that are whole multiples of `step_s` from midnight UTC, in
+    /// order.
     pub(super) fn multiples(&self, step_s: i64) -> impl Iterator<Item = Timestamp> + use<> {
         let step_s = step_s.max(1);
         let start = self.start.as_second();

@@ -1,5 +1,5 @@
-//! The strip "Next 12 hours": the passes of one antenna, or of each, as bars over time, with day
-//! and night below. A low strip has a single lane.
+//! The strip "Next 12 hours": the passes of one or all antennas as bars over time, with day and
+//! night below. A low strip has a single lane.
 
 mod axis;
 mod bars;
@@ -26,29 +26,30 @@ pub use zoom::Zoom;
 
 #[derive(Debug, Clone, Copy)]
 pub struct Bar<'a> {
-    /// Identifies the pass: catalog number and a time that does not change.
+    /// Key of the pass: catalog number and a time that does not change.
     pub key: (u32, Timestamp),
     pub name: BarName<'a>,
     pub aos: Timestamp,
     pub los: Timestamp,
-    /// Maximum elevation, 0 to 90; `None` once it is not known any more.
+    /// Maximum elevation, degrees, 0 to 90; `None` if it is no longer known.
     pub max_elevation_deg: Option<f64>,
-    /// The mount loses part of the pass, such as at its keyhole.
+    /// `true` if the mount loses part of the pass, for example at its keyhole.
     pub loses: bool,
     pub state: State<'a>,
 }
 
-/// The short name of a satellite, looked up where its bar is shown: of very many, few are.
+/// The short name of a satellite. The strip looks it up only for visible bars, because there may be
+/// very many.
 #[derive(Debug, Clone, Copy)]
 pub enum BarName<'a> {
     Of(&'a ListedSatellite),
     Known(&'a str),
 }
 
-/// State of a pass on the antenna of its lane, as far as it is known.
+/// Known state of a pass on the antenna of its lane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum State<'a> {
-    /// As long as there is no schedule.
+    /// State from the mount, while there is no schedule.
     Mount {
         can_track: bool,
     },
@@ -65,7 +66,8 @@ impl<'a> BarName<'a> {
 }
 
 impl Bar<'_> {
-    /// The antenna tracks the pass, or did; without a schedule, the mount could.
+    /// Returns `true` if the antenna tracks or tracked the pass, or without a schedule, could track
+    /// it.
     fn is_taken(&self) -> bool {
         match self.state {
             State::Mount { can_track } => can_track,
@@ -91,58 +93,58 @@ pub struct Lane<'a> {
 
 #[derive(Clone, Copy)]
 pub struct TimelineModel<'a> {
-    /// The time of the now-line, UTC.
+    /// Time of the now-line.
     pub now: Timestamp,
-    /// The time that the sky plot shows, if that is not now.
+    /// Time that the sky plot shows; `None` for now.
     pub time: Option<Timestamp>,
     pub hours: f64,
-    /// A lane for each antenna, in the order of the station; at least one.
+    /// Lanes of the antennas, in the order of the station; at least one.
     pub lanes: &'a [Lane<'a>],
-    /// The lane of the selected antenna.
+    /// Index of the lane of the selected antenna.
     pub main: usize,
-    /// The bars show the schedule.
+    /// `true` if the bars show the schedule.
     pub is_planned: bool,
-    /// The pass that is selected in the window.
+    /// Key of the selected pass.
     pub selected: Option<(u32, Timestamp)>,
-    /// Day and night, earliest first.
+    /// Day and night, the earliest span first.
     pub sun: &'a [SunSpan],
-    /// How a pass stands on an antenna of this name, in words.
+    /// Function that describes the status of a pass on an antenna of this name.
     pub says: &'a dyn Fn(Standing<'_>, &str) -> String,
-    /// Shows the entries of a pass in the menu of the bar with this id.
+    /// Function that shows the menu entries of a pass for the bar with this id.
     pub menu: &'a PassMenu<'a>,
 }
 
-/// Below this height the strip has its small form, in points.
+/// Height below which the strip has its small form, points.
 pub const SMALL_BELOW: f32 = 120.0;
-/// Minimum size, in points; in less room nothing would be legible.
+/// Min size of the strip, points; in less room nothing would be legible.
 const MIN: Vec2 = vec2(160.0, 60.0);
-/// From this height on each antenna has a lane, in points.
+/// Height from which each antenna has a lane, points.
 const ALL_LANES_FROM: f32 = 240.0;
-/// Minimum height of such a lane, in points.
+/// Min height of the lane of an antenna, points.
 const LOWEST_LANE: f32 = 44.0;
 /// Share of a high lane that its highest bar fills.
 const GROWN: f32 = 0.55;
-/// Below this height all passes share one lane, in points.
+/// Height below which all passes share one lane, points.
 const TWO_LANES_FROM: f32 = 190.0;
 const MARGIN: f32 = 16.0;
 const SMALL_MARGIN: f32 = 12.0;
-/// Width at the left for the names of the lanes, in points.
+/// Width at the left for the names of the lanes, points.
 const NAMES: f32 = 96.0;
 const SMALL_NAMES: f32 = 84.0;
-/// Gap between the name of a lane and the lane.
+/// Gap between the name of a lane and the lane, points.
 const NAMES_GAP: f32 = 8.0;
-/// How far the name of a bar may reach into that gap.
+/// Max length by which the name of a bar extends into that gap, points.
 const REACH: f32 = 2.0;
 const HEAD: f32 = 32.0;
 const AXIS: f32 = 24.0;
 const SMALL_AXIS: f32 = 21.0;
-/// Height of the lane of passes that the antenna does not track.
+/// Height of the lane of passes that the antenna does not track, points.
 const OUT_LANE: f32 = 34.0;
 const SUN_LANE: f32 = 9.0;
 const SUN_WORDS: f32 = 20.0;
 const LANE_GAP: f32 = 4.0;
 const BOTTOM: f32 = 6.0;
-/// Heights of the bars for 0° and 90° of maximum elevation.
+/// Heights of the bars for 0° and 90° of maximum elevation, points.
 const HEIGHTS: RangeInclusive<f32> = 14.0..=44.0;
 const OUT_HEIGHTS: RangeInclusive<f32> = 9.0..=28.0;
 
@@ -175,7 +177,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &TimelineModel<'_>, commands: &mut V
     full(ui, below, x, &scale, model, commands);
 }
 
-/// Shows a lane for each antenna, with what it does not track as outlines.
+/// Shows a lane for each antenna; untracked passes are outlines.
 fn all_lanes(
     ui: &Ui,
     rect: Rect,
@@ -214,7 +216,8 @@ fn all_lanes(
     }
 }
 
-/// The heights of bars for 0° and 90° of maximum elevation, which grow in a high lane.
+/// Returns the heights of bars for 0° and 90° of maximum elevation, points. They grow in a high
+/// lane.
 fn grown(lane: Rect) -> RangeInclusive<f32> {
     *HEIGHTS.start()..=HEIGHTS.end().max(GROWN * lane.height())
 }

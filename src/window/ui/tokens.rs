@@ -1,7 +1,7 @@
-//! The colours of the three themes. View code uses only the tokens defined here; no other
-//! module contains a literal colour.
+//! The colours of the three themes. View code uses only these tokens; no other module contains a
+//! literal colour.
 
-// Colours are written as in the design.
+// The design writes colours in this form.
 #![allow(clippy::unreadable_literal)]
 
 use egui::Color32;
@@ -18,47 +18,47 @@ impl ThemeName {
     }
 }
 
-/// One colour for each role.
+/// The colours of a theme, one for each role.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Tokens {
     /// Background of the window and of plot surroundings.
     pub bg0: Color32,
-    /// Background of an input and of the rows of a table: in the light theme the tone of the
-    /// window would look disabled.
+    /// Background of inputs and of table rows. In the light theme, the background of the window
+    /// would make them look disabled.
     pub field: Color32,
-    /// Panels, bars, day part of the plan.
+    /// Background of panels, bars and the day part of the plan.
     pub bg1: Color32,
-    /// Cards, table heads, state sentence.
+    /// Background of cards, table heads and the state sentence.
     pub bg2: Color32,
-    /// Buttons, gauge track.
+    /// Background of buttons and the gauge track.
     pub bg3: Color32,
-    /// Selected row, active view.
+    /// Background of the selected row and the active view.
     pub bgsel: Color32,
-    /// Inside of the sky plot.
+    /// Background of the disc of the sky plot.
     pub sky: Color32,
-    /// Divider, quiet grid.
+    /// Colour of dividers and the quiet grid.
     pub line: Color32,
-    /// Border of a control, rim, plan day line.
+    /// Colour of control borders, the rim and the day lines of the plan.
     pub edge: Color32,
-    /// Rings and spokes.
+    /// Colour of rings and spokes.
     pub grid: Color32,
-    /// Main text, now-line.
+    /// Colour of main text and the now-line.
     pub t1: Color32,
-    /// Second text.
+    /// Colour of secondary text.
     pub t2: Color32,
-    /// Captions, axis numbers.
+    /// Colour of captions and axis numbers.
     pub t3: Color32,
-    /// Selected satellite, prediction, selection, primary action.
+    /// Colour of the selected satellite, predictions, the selection and primary actions.
     pub sat: Color32,
-    /// Commanded: ring, command column, slew, held jog key.
+    /// Colour of commands: ring, command column, slew and held jog key.
     pub cmd: Color32,
-    /// Measured antenna.
+    /// Colour of measured antenna positions.
     pub ant: Color32,
-    /// Good, verified, live.
+    /// Colour of good, verified and live states.
     pub ok: Color32,
-    /// Caution: time lost, late, needs confirmation.
+    /// Colour of cautions: time lost, late, or confirmation needed.
     pub warn: Color32,
-    /// Fault, limit, rejected, link lost.
+    /// Colour of faults, limits, rejections and lost links.
     pub bad: Color32,
     /// Fill of STOP only.
     pub stop: Color32,
@@ -66,33 +66,33 @@ pub struct Tokens {
     pub onstop: Color32,
     /// Text on a sat or cmd fill.
     pub onsat: Color32,
-    /// Row or note with a caution.
+    /// Background of a row or note with a caution.
     pub warnbg: Color32,
-    /// Row with a fault.
+    /// Background of a row with a fault.
     pub badbg: Color32,
-    /// Note or field row that was proved.
+    /// Background of a note or field row with a confirmed value.
     pub okbg: Color32,
-    /// Keep-out fill, end of travel.
+    /// Fill of keep-outs and of the ends of travel.
     pub keep: Color32,
-    /// Mask fill under the hatch.
+    /// Fill of the mask under its hatch.
     pub mask: Color32,
-    /// Hatch lines of the mask.
+    /// Colour of the hatch lines of the mask.
     pub hatch: Color32,
-    /// Sun.
+    /// Colour of the Sun.
     pub sun: Color32,
-    /// Moon.
+    /// Colour of the Moon.
     pub moon: Color32,
-    /// Satellites that are not selected, passes left out.
+    /// Colour of unselected satellites and of passes left out.
     pub other: Color32,
 }
 
-/// Over what cannot be used while a question is open, in every theme: positions, links and states
-/// can still be read through it.
+/// Veil above parts that are unusable while a question is open, in every theme. Positions, links
+/// and states stay readable through the veil.
 pub const VEIL: Color32 = Color32::from_black_alpha(26);
 
 const fn rgb(hex: u32) -> Color32 {
     let [_, r, g, b] = hex.to_be_bytes();
-    // The one place where a literal becomes a colour.
+    // Only this function turns a literal into a colour.
     #[allow(clippy::disallowed_methods)]
     Color32::from_rgb(r, g, b)
 }
@@ -199,7 +199,8 @@ const NIGHT: Tokens = Tokens {
     other: rgb(0xF8402F),
 };
 
-/// Contrast of two opaque colours by the Web Content Accessibility Guidelines, from 1 to 21.
+/// Returns the contrast of two opaque colours by the Web Content Accessibility Guidelines, from 1
+/// to 21.
 pub fn contrast(a: Color32, b: Color32) -> f64 {
     let (a, b) = (luminance(a), luminance(b));
     (a.max(b) + 0.05) / (a.min(b) + 0.05)

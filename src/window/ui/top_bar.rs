@@ -18,57 +18,57 @@ use super::{
 use crate::model::{Stations, UiCommand};
 pub use clock::{ClockHealth, ClockModel, ClockMood};
 
-/// Height of the bar.
+/// Height of the bar, points.
 pub const HEIGHT: f32 = 56.0;
-/// Height of the bar in a low window.
+/// Height of the bar in a low window, points.
 pub const SMALL_HEIGHT: f32 = 48.0;
-/// In a window below this height the bar is small.
+/// Window height below which the bar is small, points.
 pub const SMALL_BELOW: f32 = 800.0;
-/// Minimum width for date and local time; below it they move to a tool-tip.
+/// Min width for date and local time, points; in a narrower bar they move to a tool-tip.
 const DATE_FROM: f32 = 1360.0;
-/// Minimum width for chips with two lines.
+/// Min width of a bar whose chips have two lines, points.
 const TWO_LINES_FROM: f32 = 1200.0;
-/// Width of the words about antennas that STOP does not reach.
+/// Width of the words about antennas that STOP does not reach, points.
 const LEFT_OUT: f32 = 56.0;
 
 /// Content of the bar.
 #[derive(Debug, Clone, Copy)]
 pub struct TopBarModel<'a> {
     pub station: &'a str,
-    /// The station is the demo station.
+    /// `true` for the demo station.
     pub demo: bool,
-    /// Stations to change to.
+    /// Stations for the station menu.
     pub stations: &'a Stations,
-    /// Coordinates of the station.
+    /// Formatted coordinates of the station.
     pub coordinates: &'a str,
-    /// Times and date.
+    /// Formatted times and date.
     pub clock: ClockModel<'a>,
-    /// One chip for each antenna, in the order of the keys F1 to F4.
+    /// Chips of the antennas, one for each, in the order of the keys F1 to F4.
     pub chips: &'a [ChipModel<'a>],
     pub alarms: AlarmModel<'a>,
     /// Outcome of the last STOP.
     pub stop: StopLook<'a>,
-    /// Effect of STOP, in a sentence or more.
+    /// Effect of STOP, in one or more sentences.
     pub stop_about: &'a str,
-    /// The antennas that STOP leaves alone, if any.
+    /// Antennas that STOP leaves alone, if any.
     pub stop_left_out: Option<StopLeftOut<'a>>,
 }
 
 /// The antennas that STOP leaves alone.
 #[derive(Debug, Clone, Copy)]
 pub struct StopLeftOut<'a> {
-    /// How many of all the antennas STOP stops.
+    /// Number of antennas that STOP stops, of all antennas.
     pub count: &'a str,
-    /// Which it leaves alone, and why.
+    /// Sentence that names the antennas left alone, and the reason.
     pub sentence: &'a str,
 }
 
-/// The height for a window of this height.
+/// Returns the height of the bar for a window of this height, points.
 pub fn height(window_height: f32) -> f32 {
     if window_height < SMALL_BELOW { SMALL_HEIGHT } else { HEIGHT }
 }
 
-/// Shows the bar in `rect`. Call before anything else is drawn, so that STOP is first in Tab
+/// Shows the bar in `rect`. Call this function first in a frame, so that STOP comes first in Tab
 /// order.
 pub fn show(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>) -> Vec<UiCommand> {
     let mut commands = Vec::new();
@@ -157,7 +157,7 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, commands: &mut Vec<UiC
     alarm_list::show(ui, (alarms, rect.bottom()), &model.alarms, !wide, commands);
 }
 
-/// Tells between the alarms and STOP that it does not stop every antenna.
+/// Shows between the alarms and STOP that STOP does not reach every antenna.
 fn mark_left_out(ui: &Ui, rect: Rect, left_out: StopLeftOut<'_>) {
     let t = theme::tokens(ui);
     for (words, down) in [("STOP", -13.0), ("reaches", 0.0), (left_out.count, 13.0)] {
@@ -169,11 +169,12 @@ fn mark_left_out(ui: &Ui, rect: Rect, left_out: StopLeftOut<'_>) {
     paint::name_text(ui, "left out of stop", rect, &words).on_hover_text(&words);
 }
 
-/// Shows STOP in a layer of its own above everything, so that it works while a dialog is
-/// open. Returns `true` when it was clicked.
+/// Shows STOP in a separate layer above all others, so that it works while a dialog is open.
+/// Returns `true` if the operator clicks STOP.
 fn stop_clicked(ui: &Ui, rect: Rect, model: &TopBarModel<'_>) -> bool {
     Area::new(Id::unique("stop layer"))
-        // The first of the bar for screen readers too, which would read its layer last.
+        // With this parent, screen readers also read STOP first. They would otherwise read its
+        // layer last.
         .accessibility_parent(ui.unique_id())
         .order(Order::Tooltip)
         .fixed_pos(rect.min)

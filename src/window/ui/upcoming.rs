@@ -12,26 +12,26 @@ use super::{
 };
 use crate::{contract::passes::PredictedPass, model::Model};
 
-/// Height of the head.
+/// Height of the head, points.
 const HEAD: f32 = 32.0;
 
-/// Passes with the words around them.
+/// Passes and the words around them.
 pub(super) struct Upcoming<'a> {
     pub(super) title: &'a str,
-    /// At the right of the title.
+    /// Remark at the right of the title.
     pub(super) remark: &'a str,
     pub(super) passes: &'a [&'a PredictedPass],
-    /// Why there are no passes.
+    /// Reason why there are no passes.
     pub(super) empty: &'a str,
 }
 
 impl<'a> Upcoming<'a> {
-    /// Height of the head and the passes.
+    /// Returns the height of the head and the passes, points.
     pub(super) fn height(&self) -> f32 {
         HEAD + self.passes.len().max(1) as f32 * SHORT_ROW
     }
 
-    /// Draws the passes into `rect`. Returns the one that is clicked.
+    /// Draws the passes into `rect`. Returns the clicked pass.
     pub(super) fn show(&self, ui: &Ui, rect: Rect, model: &Model) -> Option<&'a PredictedPass> {
         let t = theme::tokens(ui);
         let (head, body) = rect.split_top_bottom_at_y(rect.top() + HEAD);

@@ -36,16 +36,16 @@ use crate::{
 };
 use form::Form;
 
-/// Height of the foot: the button, and in two lines why nothing can be sent.
+/// Height of the foot, points: the button, and in two lines the reason why Azel cannot send.
 const FOOT: f32 = 80.0;
 
-/// Input and choices for every antenna, by its name. A failure leaves them as they are.
+/// Input and choices for every antenna, by its name. A failure leaves them unchanged.
 #[derive(Default)]
 pub struct UploadState {
     forms: BTreeMap<String, Form>,
-    /// Satellites to choose in the form that is shown next.
+    /// Satellites to choose in the next form.
     choice: Option<Choice>,
-    /// The stage that was shown last; a new one is scrolled into sight.
+    /// The last shown stage; the view scrolls to a new stage.
     stage: Option<Discriminant<Stage>>,
     questions: questions::Questions,
     question: Option<Question>,
@@ -54,9 +54,9 @@ pub struct UploadState {
 /// Satellites for the file, by catalog number.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Choice {
-    /// These alone.
+    /// A new list of satellites that replaces the choice.
     These(Vec<u32>),
-    /// This one beside those chosen before.
+    /// A satellite to add to the choice.
     Also(u32),
 }
 
@@ -67,8 +67,8 @@ impl UploadState {
     }
 }
 
-/// Draws the upload for the antenna with the index `antenna` into `ui`; designed for 300 to 560
-/// points. All but the button scrolls. Its questions are modal.
+/// Draws the upload for the antenna with the index `antenna` into `ui`; the design width is 300 to
+/// 560 points. Everything above the button scrolls. Its questions are modal.
 pub fn show(
     ui: &mut Ui,
     model: &Model,
@@ -106,7 +106,8 @@ pub fn show(
     Question::show(&mut state.question, ui, commands);
 }
 
-/// Shows all that scrolls above the button. Returns the order, or what to do for one.
+/// Shows the scrolling part above the button. Returns the order, or the input that is missing for
+/// an order.
 fn content(
     ui: &mut Ui,
     model: &Model,
@@ -134,7 +135,7 @@ fn content(
         line(ui, Tone::Plain, &words);
     }
     form::show(ui, form);
-    // The satellites come last: they may be hundreds.
+    // The satellites come last, because there may be hundreds.
     earlier_files::show(ui, model, name, form, &mut state.question, commands);
     let file = match &model.catalog {
         CatalogState::Ready(catalog) => {
@@ -152,7 +153,7 @@ fn content(
     form.order(name, file.map(Cargo::New))
 }
 
-/// Shows the send button, and below it the reason why nothing can be sent.
+/// Shows the send button, and below it the reason why Azel cannot send.
 fn send(
     ui: &Ui,
     foot: Rect,

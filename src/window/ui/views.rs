@@ -60,9 +60,9 @@ pub struct Views {
 /// State of the views kept from one start to the next.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct StoredViews {
-    /// The travel gauges are unfolded in a low window.
+    /// `true` if the travel gauges are unfolded in a low window.
     pub travel_open: bool,
-    /// The checks are unfolded in a low window.
+    /// `true` if the checks are unfolded in a low window.
     pub faults_open: bool,
     /// Number of hours in the timeline; `None` for the default.
     pub strip_hours: Option<u32>,
@@ -77,7 +77,7 @@ pub struct StoredViews {
 }
 
 impl Views {
-    /// Views in the state in which the operator left them.
+    /// Creates the views from the stored state.
     pub fn new(stored: StoredViews) -> Self {
         let mut views = Self::default();
         let operate = &mut views.operate;
@@ -91,7 +91,7 @@ impl Views {
         views
     }
 
-    /// The state to keep.
+    /// Returns the state to store.
     pub fn stored(&self) -> StoredViews {
         StoredViews {
             travel_open: self.operate.card.travel_open,
@@ -104,13 +104,13 @@ impl Views {
         }
     }
 
-    /// Draws everything and collects the operator's commands.
+    /// Draws the whole window and collects the operator's commands.
     pub fn show(&mut self, ui: &mut Ui, model: &Model, commands: &mut Vec<UiCommand>) {
         self.show_below_bar_of(model, ui, model, commands);
     }
 
-    /// The same for the replay in `model`: the bar stays that of the live station, with STOP, and
-    /// what would act is refused.
+    /// Draws the window for the replay in `model`. The bar with STOP stays live, and the window
+    /// refuses commands that act.
     pub fn show_replay(
         &mut self,
         ui: &mut Ui,
@@ -159,7 +159,8 @@ impl Views {
         let side = body.with_max_x(body.left() + rail::width(window.width()));
         self.keys_open |= show_rail(ui, side, model, self.antennas.edited(model), commands);
         let mut rest = Rect::from_min_max(pos2(side.right(), body.top()), body.max);
-        // In a low window the antenna card needs the whole height: Operate has the strip beside it.
+        // In a low window the antenna card needs the whole height, so Operate has the strip next to
+        // it.
         if has_banner && is_low && model.view != View::Operate {
             let strip = rest.with_max_y(rest.top() + banner::LOW_HEIGHT);
             banner::show(ui, strip, model, commands);
@@ -216,14 +217,14 @@ impl Views {
         self.notes.show(ui, rest, model, commands);
         if let Some(question) = second_step::ask(model, before, commands) {
             self.question = Some(question);
-            // Enter answers the question, rather than ending the typing behind it.
+            // Enter answers the question and does not end a text input behind it.
             ui.memory_mut(egui::Memory::stop_text_input);
         }
         self.show_questions(ui, live, model, commands);
         keys::list::show(ui, &mut self.keys_open);
     }
 
-    /// Shows the questions that lie over all views.
+    /// Shows the questions above all views.
     fn show_questions(
         &mut self,
         ui: &Ui,
@@ -245,7 +246,7 @@ impl Views {
         }
     }
 
-    /// Takes a correction over that the operator has chosen in the record.
+    /// Accepts a correction that the operator has chosen in the record.
     fn take_correction(&mut self, model: &Model, commands: &mut Vec<UiCommand>) {
         match self.record.correction.take() {
             Some(Ok(correction)) => {
@@ -257,7 +258,7 @@ impl Views {
         }
     }
 
-    /// Ends what only a view that is shown goes on with.
+    /// Ends activities that only a visible view may continue.
     fn leave_others(&mut self, shown: View, commands: &mut Vec<UiCommand>) {
         if shown != View::Operate {
             self.operate.leave(commands);
@@ -267,8 +268,9 @@ impl Views {
         }
     }
 
-    /// Drops commands since `before` that would change the station under edits of its
-    /// preferences, which would be lost with it, and says so.
+    /// Drops the commands from index `before` on that would change the station while its
+    /// preferences have unsaved edits. The change would discard these edits. Shows a message about
+    /// the dropped commands.
     fn keep_edits(&mut self, commands: &mut Vec<UiCommand>, before: usize) {
         if !self.preferences.is_edited() {
             return;
@@ -281,16 +283,16 @@ impl Views {
         }
     }
 
-    /// Takes what would act out of the commands since `before`, and the question before it. Returns
-    /// `true` if the operator has to be told.
+    /// Removes the commands from index `before` on that act, and an open question about such a
+    /// command. Returns `true` if the window refused any of them.
     fn refuse_in_replay(&mut self, commands: &mut Vec<UiCommand>, before: usize) -> bool {
         let acts = |command: &UiCommand| !command.is_for_replay();
         let requested = self.question.take_if(|question| acts(&question.command)).is_some();
         commands.extract_if(before.., |command| acts(command)).count() > 0 || requested
     }
 
-    /// Asks before the window closes or changes to another station if something would be lost with
-    /// it, or ends the station in the way set for it. Returns `true` if that has to wait.
+    /// Asks before the window closes or changes the station, if the operator would lose something.
+    /// Otherwise ends the station according to its settings. Returns `true` if closing has to wait.
     pub fn ask_before_closing(&mut self, model: &Model, commands: &mut Vec<UiCommand>) -> bool {
         let mut lost: Vec<String> = words::automatic::lost_by_closing(model).into_iter().collect();
         match self.antennas.edited(model) {
@@ -340,7 +342,7 @@ impl Views {
         true
     }
 
-    /// Call when the station has changed other than by the preferences.
+    /// Resets views after a change of the station from outside the preferences.
     pub fn station_changed(&mut self) {
         self.operate.sky_time.return_to_now();
         self.preferences.forget();
@@ -357,18 +359,18 @@ impl Views {
         self.notes.news = Some(result.map_err(|reason| format!("Nothing was saved: {reason}.")));
     }
 
-    /// The operator is to type the path of a file.
+    /// Asks the operator to enter the path of a file.
     pub fn ask_for_path(&mut self, request: PathRequest) {
         self.path_dialog = Some(PathDialog::new(request));
     }
 
-    /// The folder that the operator wanted to see was not opened.
+    /// Shows the reason why a folder was not opened.
     pub fn folder_not_opened(&mut self, reason: &str) {
         let cure = "Copy its path and open it by hand";
         self.notes.news = Some(Err(format!("The folder was not opened: {reason}. {cure}.")));
     }
 
-    /// A file that the operator wanted to open was not opened, for this reason.
+    /// Shows the reason why a file was not opened.
     pub fn not_opened(&mut self, reason: &str) {
         self.notes.news = Some(Err(reason.to_owned()));
     }
@@ -398,8 +400,8 @@ fn show_upload(
     });
 }
 
-/// Shows the rail; returns `true` when the list of keys is to open. `edits`: typed values of
-/// the Antennas view that are not on their units.
+/// Shows the rail. Returns `true` when the operator opens the list of keys. `edits` is the number
+/// of values entered in the Antennas view that are not on their units.
 fn show_rail(
     ui: &mut Ui,
     rect: Rect,

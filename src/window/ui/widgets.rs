@@ -1,5 +1,5 @@
-//! Widgets. Each takes plain data and a rectangle, paints itself and returns the
-//! operator's action; no widget calls into the rest of the program.
+//! Widgets. Each widget takes plain data and a rectangle, paints itself and returns the operator's
+//! action. No widget calls the rest of the program.
 
 pub mod alarm_list;
 pub mod angle_field;

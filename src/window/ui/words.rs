@@ -1,5 +1,5 @@
-//! Reports of the lower layers as plain sentences: the failure, its reason, the present
-//! state, and the remedy.
+//! Reports of the lower layers as plain sentences: the failure, its reason, the current state, and
+//! the remedy.
 
 mod alarms;
 pub mod automatic;
@@ -54,11 +54,11 @@ pub use safety::{
 pub use site::{off_the_told, sun_there};
 pub use way_there::{WayThere, needs};
 
-/// Age from which old elements are mentioned: after some days a satellite in low orbit is
+/// Age from which Azel mentions old elements, seconds. After some days a satellite in low orbit is
 /// minutes away from the prediction.
 pub const OLD_ELEMENTS_S: f64 = 7.0 * 86_400.0;
 
-/// Name of a request to an antenna, as its key or button calls it.
+/// Names a request to an antenna, as on its key or button.
 pub fn motion_name(request: MotionRequest) -> &'static str {
     let motion = match request {
         MotionRequest::Motion(motion) => motion,
@@ -73,14 +73,14 @@ pub fn motion_name(request: MotionRequest) -> &'static str {
     }
 }
 
-/// Name of an action of any make.
+/// Returns the label of the action with this key, whichever make has it.
 fn action_name(key: &str) -> &'static str {
     let mut actions =
         SPECS.iter().flat_map(|spec| spec.variants).flat_map(|variant| variant.actions);
     actions.find(|action| action.key == key).map_or("Action", |action| action.label)
 }
 
-/// Name of an end of an axis, or of the direction towards it, as the jog keys call it.
+/// Names an end of an axis, or the direction towards it, as on the jog keys.
 pub fn way(axis: &str, plus: bool) -> String {
     match (axis, plus) {
         ("Az", true) => "CW".to_owned(),
@@ -92,7 +92,7 @@ pub fn way(axis: &str, plus: bool) -> String {
     }
 }
 
-/// A sentence about an ongoing activity of an antenna.
+/// Returns a sentence about an ongoing activity of an antenna.
 pub fn stake(antenna: &str, stake: &Stake) -> String {
     let short = super::state_sentence::short;
     match stake {
@@ -105,7 +105,7 @@ pub fn stake(antenna: &str, stake: &Stake) -> String {
     }
 }
 
-/// Why a value cannot be used, with the unit behind the ends of a range.
+/// Returns the reason why a value is invalid, with the unit of measure after the ends of a range.
 pub fn unfit(reason: &Unfit, unit: &str) -> String {
     match reason {
         Unfit::Number { .. } | Unfit::Integer { .. } if !unit.is_empty() => {
@@ -116,7 +116,7 @@ pub fn unfit(reason: &Unfit, unit: &str) -> String {
     }
 }
 
-/// A reason why a value cannot be used, in a few words for beside its field.
+/// Returns the reason why a value is invalid, in a few words next to its field.
 pub fn unfit_in_short(reason: &Unfit, unit: &str) -> String {
     let only = |min: f64, max: f64| {
         let gap = if unit == "°" || unit.is_empty() { "" } else { " " };
@@ -129,7 +129,7 @@ pub fn unfit_in_short(reason: &Unfit, unit: &str) -> String {
     }
 }
 
-/// Name of an intent.
+/// Names an intent.
 pub fn intent(intent: Intent) -> &'static str {
     match intent {
         Intent::Standby => "Standby",
@@ -140,7 +140,7 @@ pub fn intent(intent: Intent) -> &'static str {
     }
 }
 
-/// Where an antenna parks, as a sentence.
+/// Describes the park position of an antenna, as a sentence.
 pub fn parks_at(antenna: &AntennaModel) -> String {
     let park = antenna.config.park_direction();
     let azimuth = format::degrees(park.azimuth_deg(), 1);
@@ -153,20 +153,20 @@ pub fn parks_at(antenna: &AntennaModel) -> String {
     }
 }
 
-/// A problem reported by a lower layer, as a sentence.
+/// Returns a problem reported by a lower layer, as a sentence.
 pub fn sentence(problem: &str) -> String {
     let words = capitalised(problem);
     if words.ends_with('.') { words } else { format!("{words}.") }
 }
 
-/// The text with its first letter capitalised.
+/// Returns the text with its first letter capitalised.
 pub fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters.next().map(char::to_uppercase).into_iter().flatten();
     first.chain(letters).collect()
 }
 
-/// Short name of a satellite by its catalog number, which stands for it where it has none.
+/// Returns the short name of a satellite by its catalog number, or the number if it has no name.
 pub fn satellite(model: &Model, number: u32) -> String {
     let name = match &model.catalog {
         CatalogState::Ready(catalog) => catalog.get(number).map(Elements::short_name),

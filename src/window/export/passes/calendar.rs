@@ -1,4 +1,4 @@
-//! Passes as events of a calendar.
+//! Passes as calendar events.
 
 use std::io::{self, Write};
 
@@ -59,7 +59,7 @@ fn event(list: &PassList<'_>, row: &ExportedPass<'_>, id: &str, location: &str) 
     if let Some(before_s) = list.alarm_before_s {
         let before = TimeDelta::seconds(before_s.round() as i64);
         let mut alarm = Alarm::display(&summary, Trigger::before_start(before));
-        // Left out, they would be random and the time of writing.
+        // The library would otherwise add a random UID and the time of writing.
         alarm.uid(&format!("alarm-{id}")).add_property("DTSTAMP", date_time(list.now));
         event.alarm(alarm);
     }
@@ -78,7 +78,7 @@ fn second(time: Timestamp) -> Timestamp {
     time.round(Unit::Second).unwrap_or(time)
 }
 
-/// UTC to the nearest second, in the basic form of the format.
+/// Returns UTC to the nearest second, in the basic form of the format.
 fn date_time(time: Timestamp) -> String {
     civil(time, "%Y%m%dT%H%M%SZ")
 }

@@ -1,10 +1,10 @@
-//! Identities of passes in a calendar. They stay the same when the elements are renewed, the window
-//! moves or the site is measured again, so that a second import replaces the events of the first.
+//! Identities of passes in a calendar. An identity survives new elements, another time window or a
+//! new measurement of the site. A second import therefore replaces the events of the first.
 //!
-//! Time is divided into slots, and a pass is named by the slot of its TCA. The length of a slot in
-//! seconds is a power of two, less than the time between two passes: a slightly different period
-//! gives the same slots, and a slightly different TCA lies in the same slot unless it is next to
-//! the border of two.
+//! Time is divided into slots, and the slot of its TCA identifies a pass. The length of a slot in
+//! seconds is a power of two, less than the time between two passes. A slightly different period
+//! gives the same slots. A slightly different TCA lies in the same slot unless it is next to the
+//! border of two slots.
 
 use std::collections::BTreeMap;
 
@@ -18,15 +18,15 @@ use crate::{
 
 /// Maximum length of a slot as a share of the time between two passes.
 const SLOT_SHARE: f64 = 0.9;
-/// A pass of more revolutions than this has no TCA that would stay the same.
+/// Max length of a pass with a stable TCA, revolutions.
 const LONGEST_PASS: f64 = 2.0;
-/// Keeps the borders of cells away from round coordinates.
+/// Offset that keeps the borders of cells away from round coordinates, degrees.
 const CELL_OFFSET_DEG: f64 = 0.317;
-/// Nearer to a pole than this, a metre is too large a part of a degree of longitude.
+/// Latitude above which a metre is too large a part of a degree of longitude, degrees.
 const POLAR_LATITUDE_DEG: f64 = 89.0;
 
-/// The identity of each of `rows`, which are ordered by AOS. All identities are different. A calendar
-/// appends its domain.
+/// Returns the identities of `rows`, which are ordered by AOS. All identities are different. A
+/// calendar appends its domain.
 pub(in crate::export) fn event_ids(rows: &[ExportedPass<'_>], query: &PassQuery) -> Vec<String> {
     let cell = cell(query.search.site);
     // Number of earlier passes by satellite and slot.
@@ -46,8 +46,8 @@ pub(in crate::export) fn event_ids(rows: &[ExportedPass<'_>], query: &PassQuery)
     rows.iter().map(id).collect()
 }
 
-/// A number for the square degree of a site, since two stations may have their passes
-/// in one calendar.
+/// Returns a number for the square degree of a site, since two stations may have their passes in
+/// one calendar.
 fn cell(site: Site) -> u32 {
     let (latitude_deg, longitude_deg) = (site.latitude().degrees(), site.longitude().degrees());
     let row = (latitude_deg + 90.0 + CELL_OFFSET_DEG) as u32;
@@ -57,14 +57,14 @@ fn cell(site: Site) -> u32 {
 }
 
 struct Slots {
-    /// The length of a slot is 2 to this power seconds.
+    /// Binary logarithm of the length of a slot in seconds.
     exponent: u32,
     longest_pass_s: f64,
 }
 
 /// The position of a pass among the slots.
 struct FoundSlot {
-    /// `None` for a satellite that stays above the horizon.
+    /// The slot; `None` for a satellite that stays above the horizon.
     slot: Option<i64>,
     /// Number of known passes before this one in the same slot.
     order: usize,
@@ -87,8 +87,8 @@ impl Slots {
         Timestamp::from_second(slot << self.exponent).unwrap_or(Timestamp::MIN)
     }
 
-    /// Finds the slot of `pass`. If the window that starts at `start` cuts off a part of the pass or
-    /// of its slot, `again` searches a wider window.
+    /// Finds the slot of `pass`. If the window from `start` on cuts off a part of the pass or of
+    /// its slot, `again` searches a wider window.
     fn find(
         &self,
         pass: &Pass,

@@ -11,7 +11,7 @@ use crate::{
     orbit::{Distance, OverGround, Propagator, is_lit},
 };
 
-/// A pass with its columns. New ones are added at the end, before the Doppler shifts, so that programs
+/// A pass with its columns. New columns go at the end, before the Doppler shifts, so that programs
 /// that count columns keep working.
 #[derive(Default, Serialize)]
 pub(super) struct Row<'a> {
@@ -32,7 +32,7 @@ pub(super) struct Row<'a> {
     ends_after: bool,
     epoch: Epoch,
     age_days: f64,
-    /// At TCA.
+    /// Range at TCA, km.
     range_km: Option<f64>,
     sunlit: Option<bool>,
     designator: Option<Cow<'a, str>>,
@@ -53,7 +53,7 @@ pub(super) struct Row<'a> {
 /// A Doppler shift.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 enum Doppler {
-    /// No carrier is given, so that there is no such column.
+    /// No column, because the list has no carrier.
     #[default]
     LeftOut,
     Unknown,
@@ -75,7 +75,7 @@ impl Serialize for Doppler {
     }
 }
 
-/// An epoch, with microseconds: it has no digits beyond them.
+/// An epoch, written with microseconds; elements have no further digits.
 #[derive(Default)]
 struct Epoch(jiff::Timestamp);
 
@@ -94,14 +94,14 @@ struct Geometry {
 }
 
 impl<'a> Row<'a> {
-    /// A row with the columns that rows with or without Doppler shifts have.
+    /// Returns an empty row with the columns of a list with or without Doppler shifts.
     pub(super) fn columns(has_doppler: bool) -> Self {
         let doppler = if has_doppler { Doppler::Unknown } else { Doppler::LeftOut };
         let [aos_doppler_hz, tca_doppler_hz, los_doppler_hz] = [doppler; 3];
         Self { aos_doppler_hz, tca_doppler_hz, los_doppler_hz, ..Self::default() }
     }
 
-    /// A row for each pass, in their order.
+    /// Returns a row for each pass, in the order of the passes.
     pub(super) fn all(view: &View, format: RowFormat, passes: &[ExportedPass<'a>]) -> Vec<Self> {
         let requests: Vec<_> = passes
             .iter()
@@ -196,7 +196,7 @@ mod tests {
         let [range_km, sunlit, designator, dark_at_site, ..] = fields[..] else { panic!("{row}") };
         assert!((400.0..14_000.0).contains(&range_km.parse::<f64>().unwrap()), "{row}");
         assert!(sunlit.parse::<bool>().is_ok(), "{row}");
-        // Before sunrise in Istanbul.
+        // The pass is before sunrise in Istanbul.
         assert_eq!((designator, dark_at_site), ("1998-067A", "true"));
     }
 
@@ -211,7 +211,7 @@ mod tests {
         );
         let shifts: Vec<f64> =
             row.trim_end().rsplit(',').take(3).map(|text| text.parse().unwrap()).collect();
-        // The shift at 8 km/s.
+        // Upper limit: the Doppler shift at 8 km/s.
         assert!(shifts.iter().all(|shift| shift.abs() < 3_900.0), "{row}");
     }
 

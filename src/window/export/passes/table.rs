@@ -1,4 +1,4 @@
-//! Passes as a table. A `<` or `>` marks a pass that the window cuts off at that end.
+//! Passes as a table. A `<` or `>` marks a pass that the time window cuts off at that end.
 
 use std::io::{self, Write};
 
@@ -47,7 +47,7 @@ pub(super) fn write(out: &mut impl Write, rows: &[ExportedPass<'_>]) -> io::Resu
     Ok(())
 }
 
-/// The time, with its date if that is not the date of AOS.
+/// Returns the time, with its date if it differs from the date of AOS.
 fn later(pass: &Pass, time: Timestamp) -> String {
     civil(time, if is_of_another_day(pass, time) { DATE_AND_TIME } else { "%H:%M:%S" })
 }

@@ -1,4 +1,4 @@
-//! One pass for the tests of all forms.
+//! An example pass for the tests of all formats.
 
 use std::io::{self, Write};
 
@@ -11,7 +11,8 @@ use crate::{
     orbit::{Elements, Pass, PassPoint, PassSearch, read_elements},
 };
 
-/// A satellite whose name contains everything that some form has to quote, and a pass.
+/// Returns a pass, and a satellite whose name contains every character that some format has to
+/// quote.
 pub(in crate::export) fn example() -> (Elements, Pass) {
     let text = serde_json::json!({
         "OBJECT_NAME": "ISS, (ZARYA); \"1\"", "OBJECT_ID": "1998-067A", "NORAD_CAT_ID": 25_544,
@@ -41,7 +42,7 @@ pub(super) fn written(format: EventFormat, elements: Elements, passes: &[Pass]) 
     written_with(format, elements, passes, None)
 }
 
-/// Like [`written`], with the Doppler shift of a carrier.
+/// Formats passes like [`written`], with the Doppler shift of a carrier.
 pub(super) fn written_with(
     format: EventFormat,
     elements: Elements,
@@ -53,7 +54,7 @@ pub(super) fn written_with(
     String::from_utf8(out).unwrap()
 }
 
-/// Passes over Istanbul, in a window from the day before.
+/// Writes passes over Istanbul, in a window from the day before.
 pub(super) fn write_to(
     out: &mut impl Write,
     format: EventFormat,

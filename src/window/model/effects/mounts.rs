@@ -1,4 +1,4 @@
-//! How much of the passes to come an antenna tracks.
+//! Share of the predicted passes that an antenna tracks.
 
 use super::{Compare, PassTrack};
 use crate::{
@@ -10,20 +10,20 @@ use crate::{
 #[derive(Debug, Clone, PartialEq)]
 pub struct Question {
     pub antenna: AntennaId,
-    /// As saved.
+    /// Saved limits.
     pub before: MountLimits,
-    /// As edited.
+    /// Edited limits.
     pub after: MountLimits,
 }
 
-/// Passes by how much of them is tracked.
+/// Numbers of passes, by how much of each pass the antenna tracks.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Tally {
     pub whole: usize,
     pub in_part: usize,
-    /// Not at all.
+    /// Passes that the antenna cannot track at all.
     pub not: usize,
-    /// Time lost in the passes that are tracked in part, seconds.
+    /// Time lost in the partly tracked passes, seconds.
     pub lost_s: f64,
 }
 
@@ -46,7 +46,7 @@ impl Tally {
 
 impl Compare for Question {
     type Tally = Tally;
-    /// As the list of passes judges them.
+    /// Every sample, as in the list of passes.
     const EVERY: usize = 1;
 
     fn tallies(&self, ways: &[PassTrack]) -> [Tally; 2] {
@@ -66,7 +66,7 @@ mod tests {
         station::{Antenna, Mount},
     };
 
-    /// At `elevation_deg` from north over east to south, a degree each 6 s.
+    /// Returns a track at `elevation_deg` from north over east to south, one degree every 6 s.
     fn way(elevation_deg: f64) -> PassTrack {
         let start: Timestamp = "2026-11-14T12:00:00Z".parse().unwrap();
         let samples = (0..=180).map(|step| Sample {

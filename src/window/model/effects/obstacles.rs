@@ -1,4 +1,4 @@
-//! Parts of the passes to come that the horizon mask, the keep-outs and the Sun take.
+//! Parts of the predicted passes that the horizon mask, the keep-outs and the Sun block.
 
 use std::ops::Range;
 
@@ -12,32 +12,33 @@ use crate::{
     station::{Entered, KeepOut, SunAvoidance},
 };
 
-/// Interval between two places of the Sun, seconds: the Sun moves a tenth of a degree.
+/// Interval between two computed positions of the Sun, seconds. The Sun moves a tenth of a degree
+/// in this time.
 const SUN_STEP_S: f64 = 24.0;
 
-/// The obstacles of an antenna.
+/// The obstacles for the passes of an antenna.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Obstacles {
-    /// The horizon mask.
+    /// Horizon mask of the site; `None` without a mask.
     pub mask: Option<HorizonMask>,
-    /// The keep-outs.
+    /// Keep-outs of the station.
     pub keep_outs: Vec<KeepOut>,
-    /// Sun avoidance.
+    /// Sun avoidance; `None` if it is off.
     pub sun: Option<SunAvoidance>,
 }
 
 /// A question: the obstacles to compare.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Question {
-    /// As saved.
+    /// Saved obstacles.
     pub before: Obstacles,
-    /// As edited.
+    /// Edited obstacles.
     pub after: Obstacles,
-    /// The antenna whose passes are looked at; `None` at a site without one.
+    /// Antenna whose passes Azel evaluates; `None` at a site without an antenna.
     pub antenna: Option<String>,
-    /// Half of the width of its beam.
+    /// Half of the beam width of the antenna.
     pub half_beam: Angle,
-    /// The site.
+    /// Site from which the passes are seen.
     pub site: Site,
 }
 
@@ -46,9 +47,9 @@ pub struct Question {
 pub struct Toll {
     /// Number of passes that touch the zone.
     pub passes: usize,
-    /// Time of all these passes inside the zone.
+    /// Total time of these passes inside the zone, seconds.
     pub time_s: f64,
-    /// Stretches inside the zone: index of the track and range of its samples.
+    /// Parts of the tracks inside the zone: index of the track and range of its samples.
     pub blocked: Vec<(usize, Range<usize>)>,
 }
 
@@ -57,13 +58,13 @@ pub struct Toll {
 pub struct Tally {
     /// Passes that a keep-out or the Sun touches.
     pub touched: usize,
-    /// Time lost to the Sun, and in keep-outs that do more than warn, seconds.
+    /// Time lost to the Sun and to keep-outs that do more than warn, seconds.
     pub lost_s: f64,
-    /// Passes of which nothing is left.
+    /// Passes without any clear part.
     pub impossible: usize,
     /// Passes that the mask cuts.
     pub masked: usize,
-    /// Effect of each keep-out, in their order.
+    /// Effect of each keep-out, in the order of the keep-outs.
     pub of_each: Vec<Toll>,
     /// Effect of the Sun; `None` without Sun avoidance.
     pub of_sun: Option<Toll>,
@@ -71,7 +72,7 @@ pub struct Tally {
 
 impl Compare for Question {
     type Tally = Tally;
-    /// Every 6 s.
+    /// Every third sample, one each 6 s.
     const EVERY: usize = 3;
 
     fn tallies(&self, ways: &[PassTrack]) -> [Tally; 2] {
@@ -150,8 +151,8 @@ impl Toll {
     }
 }
 
-/// For each sample that is `visible`, `true` if it lies too near to the Sun, at its time or in the
-/// look-ahead time.
+/// Returns a flag for each sample. The flag is `true` if the sample is `visible` and too close to
+/// the Sun at its time or within the look-ahead time.
 fn near_sun(sun: SunAvoidance, site: Site, way: &PassTrack, visible: &[bool]) -> Vec<bool> {
     let (Some(first), Some(last)) = (way.samples.first(), way.samples.last()) else {
         return Vec::new();
@@ -173,7 +174,7 @@ fn near_sun(sun: SunAvoidance, site: Site, way: &PassTrack, visible: &[bool]) ->
     way.samples.iter().zip(visible).map(is_near).collect()
 }
 
-/// The unbroken runs of `flags`.
+/// Returns the unbroken runs of `flags`.
 fn stretches(flags: &[bool]) -> Vec<Range<usize>> {
     let mut found: Vec<Range<usize>> = Vec::new();
     for (index, _) in flags.iter().enumerate().filter(|(_, is_inside)| **is_inside) {
@@ -185,7 +186,8 @@ fn stretches(flags: &[bool]) -> Vec<Range<usize>> {
     found
 }
 
-/// Duration of a stretch, with half a step more at each end where the track goes on.
+/// Returns the duration of a stretch, seconds. The stretch extends by half a step at each end where
+/// the track continues.
 fn time_s(way: &PassTrack, stretch: &Range<usize>) -> f64 {
     let time = |index: usize| way.samples.get(index).map(|sample| sample.time);
     let (Some(first), Some(last)) = (time(stretch.start), time(stretch.end.saturating_sub(1)))
@@ -204,7 +206,8 @@ mod tests {
     use jiff::Timestamp;
 
     use super::*;
-    /// At 20 degrees of elevation from north over east to south, a degree each 6 s.
+    /// Returns a track at 20 degrees of elevation from north over east to south, one degree every 6
+    /// s.
     fn way() -> PassTrack {
         let start: Timestamp = "2026-11-14T12:00:00Z".parse().unwrap();
         let samples = (0..=180).map(|step| Sample {
@@ -249,7 +252,8 @@ mod tests {
         let site = Site::new(41.0, 29.0, 100.0).unwrap();
         let start: Timestamp = "2026-08-12T10:00:00Z".parse().unwrap();
         let track_through = |place: AzEl| {
-            // From 20 degrees below to 20 above it, a degree each 6 s.
+            // The track rises from 20 degrees below the horizon to 20 degrees above, one degree
+            // every 6 s.
             let samples = (-20..=20).map(|step| Sample {
                 time: add_seconds(start, f64::from(step + 20) * 6.0),
                 direction: AzEl {

@@ -1,4 +1,4 @@
-//! The passes to come over a site that is edited.
+//! Predicted passes over a site whose settings the operator edits.
 
 use std::sync::Arc;
 
@@ -15,10 +15,10 @@ use crate::{
     station::Station,
 };
 
-/// Time ahead in which passes are searched for, hours.
+/// Time ahead in which Azel searches for passes, hours.
 const AHEAD_H: f64 = 48.0;
 
-/// A site with the elevations that decide which passes it has.
+/// A site with the elevations that decide its passes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Standpoint {
     pub site: Site,
@@ -36,12 +36,12 @@ impl Standpoint {
     }
 }
 
-/// A question: the site as saved and as edited.
+/// A question: the saved and the edited site.
 #[derive(Debug, Clone)]
 pub struct Question {
-    /// The favourites.
+    /// Favourites whose passes the effect compares.
     pub satellites: Arc<Vec<Arc<ListedSatellite>>>,
-    /// Start of the passes that are counted.
+    /// Start of the time in which passes count.
     pub start: Timestamp,
     pub before: Standpoint,
     pub after: Standpoint,
@@ -60,7 +60,7 @@ impl PartialEq for Question {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Tally {
     pub count: usize,
-    /// Time from AOS to LOS of all of them, seconds.
+    /// Total time from AOS to LOS of all passes, seconds.
     pub up_s: f64,
     /// The highest maximum elevation, degrees; zero without a pass.
     pub highest_deg: f64,
@@ -81,7 +81,8 @@ impl Tally {
         let mut tally = Self::default();
         for satellite in question.satellites.iter() {
             for pass in passes(&satellite.propagator, &search, &|| false) {
-                // Such a satellite hardly moves and has no AOS.
+                // A satellite that starts before and ends after the window hardly moves and has no
+                // AOS.
                 if pass.starts_before && pass.ends_after {
                     continue;
                 }
@@ -101,7 +102,7 @@ impl Tally {
 
 impl Compare for Question {
     type Tally = Tally;
-    /// Tracks are not looked at: those of another site differ.
+    /// Interval that skips all samples, because the tracks over another site differ.
     const EVERY: usize = usize::MAX;
 
     fn tallies(&self, _: &[PassTrack]) -> [Tally; 2] {

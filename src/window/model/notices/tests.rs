@@ -31,7 +31,7 @@ const ANTENNA: Option<AntennaId> = Some(AntennaId::FIRST);
 const LOST: AlarmKind = AlarmKind::LinkLost(LinkLoss::Silent);
 const STOP: AlarmKind = AlarmKind::StopNotConfirmed;
 
-/// Eleven in the evening.
+/// Returns eleven in the evening, local time.
 fn time() -> Timestamp {
     "2026-08-12T20:00:00Z".parse().unwrap()
 }
@@ -40,7 +40,7 @@ fn istanbul() -> TimeZone {
     TimeZone::fixed(tz::offset(3))
 }
 
-/// Returns the notices of a station with these alarms and these settings.
+/// Returns the notices of a station with these alarms and settings.
 fn look(teller: &mut Teller, alarms: &Alarms, notices: &Notices) -> Vec<Notice> {
     let moment = Moment { utc: time(), steady: Instant::now() };
     let station = Station { notices: notices.clone(), ..Station::default() };
@@ -245,7 +245,7 @@ fn nothing_silences_a_top_priority_alarm() {
     assert_eq!(first, 14);
 }
 
-/// Each kind, and each matter of safety.
+/// Returns an alarm of each kind and of each safety event.
 fn every_kind() -> Vec<AlarmKind> {
     use crate::contract::alarms::AlarmKind as K;
     let ranked = || Ranked { cause: Cause::AzimuthOffset(1.0), max_error: None };
@@ -325,7 +325,7 @@ fn every_kind() -> Vec<AlarmKind> {
     all
 }
 
-/// Does not compile before a new kind stands here; then it belongs into the list above too.
+/// Fails to compile until this list and the list above contain each new kind.
 fn is_listed(kind: &AlarmKind) {
     use crate::contract::alarms::AlarmKind as K;
     match kind {

@@ -1,4 +1,4 @@
-//! Where the antennas point by the schedule at any moment of it.
+//! Planned pointing of the antennas at any time of the schedule.
 
 use jiff::Timestamp;
 
@@ -11,27 +11,27 @@ use crate::{
     station::BetweenPasses,
 };
 
-/// Activity of an antenna by the schedule, and where it points.
+/// Planned activity of an antenna, and its pointing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
     pub doing: PlannedActivity,
     pub pointing: Pointing,
 }
 
-/// Activity of an antenna by the schedule at one moment.
+/// Planned activity of an antenna at one moment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PlannedActivity {
     Tracks(PassListKey),
     SlewsTo(PassListKey),
-    /// Stands where the pass will begin.
+    /// Waiting at the start position of this pass.
     WaitsFor(PassListKey),
-    /// Stands where the last pass ended, or where it stands now.
+    /// Standing at the end position of the last pass, or at the current position.
     Stays,
     SlewsToPark,
     Parked,
 }
 
-/// A motion of the axes, degrees as the mount counts.
+/// A motion of the axes, degrees in the mount's scale.
 #[derive(Debug, Clone, Copy)]
 struct Slew {
     start: Timestamp,
@@ -41,7 +41,8 @@ struct Slew {
 }
 
 impl Slew {
-    /// Where the axes are, both moving from the beginning to the end.
+    /// Returns the position of the axes, degrees. Both axes move from the start to the end of the
+    /// slew.
     fn axes_deg(self, time: Timestamp) -> [f64; 2] {
         let share = (seconds_between(self.start, time) / self.seconds.max(1e-3)).clamp(0.0, 1.0);
         let [a, b] = self.from_deg;
@@ -63,13 +64,13 @@ fn key(entry: &Entry) -> PassListKey {
 }
 
 impl Model {
-    /// The end of the schedule, if that is to come.
+    /// Returns the end of the schedule if it lies in the future.
     pub fn schedule_until(&self) -> Option<Timestamp> {
         self.schedule.end.filter(|end| *end > self.now)
     }
 
-    /// Returns the scheduled activity of an antenna at `time`, and where it points then. `None` for
-    /// an antenna without passes, and where its position is unknown.
+    /// Returns the planned activity and pointing of an antenna at `time`. `None` for an antenna
+    /// without passes or with an unknown position.
     pub fn pose_at(&self, antenna: &AntennaModel, time: Timestamp) -> Option<Pose> {
         let id = antenna.id();
         let entries =
@@ -100,15 +101,15 @@ impl Model {
     fn tracks(&self, reach: &Reach, entry: &Entry, time: Timestamp) -> Option<Pose> {
         let satellite = self.pass_lists.satellite(entry.pass.satellite)?;
         let look = satellite.propagator.look_from(self.station.site, time).ok()?;
-        // Without an elevation axis there is none to plan.
+        // The plan has no elevation for a mount without an elevation axis.
         let has_elevation = reach.pointing(entry.axes_deg[0]).elevation.is_some();
         let elevation = Some(look.direction.elevation).filter(|_| has_elevation);
         let pointing = Pointing { azimuth: Some(look.direction.azimuth), elevation };
         Some(Pose { doing: PlannedActivity::Tracks(key(entry)), pointing })
     }
 
-    /// Returns the activity of the antenna between two entries, and where its axes stand as far as
-    /// that is known; they stand at `stands_deg` at first.
+    /// Returns the activity of the antenna between two entries, and the position of its axes if
+    /// that is known. `stands_deg` is the initial position of the axes.
     fn between_passes(
         &self,
         antenna: &AntennaModel,
@@ -121,7 +122,7 @@ impl Model {
         let policy = between_passes(&self.station, &antenna.config, start);
         let goes_at = next.map(|next| sets_out(next, policy).max(start));
         let left_s = goes_at.map_or(f64::INFINITY, |time| seconds_between(start, time));
-        // Before its first pass it stays where it is: parking is not announced.
+        // Before its first pass the antenna keeps its position, because parking is not announced.
         let parks = policy == BetweenPasses::Park
             && before.is_some()
             && antenna.can_park()

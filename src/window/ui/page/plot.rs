@@ -1,10 +1,10 @@
-//! Shapes of a plot in SVG. The style sheet says by their classes how they look.
+//! Shapes of a plot in SVG. The style sheet sets their appearance by class.
 
 use maud::{Markup, html};
 
 use crate::astro::AzEl;
 
-/// A line through these points; nothing for fewer than two.
+/// Returns a line through these points, or nothing for fewer than two points.
 pub(in crate::ui) fn line(class: &str, points: &[[f64; 2]]) -> Markup {
     let texts: Vec<String> =
         points.iter().map(|[x, y]| format!("{},{}", number(*x), number(*y))).collect();
@@ -13,7 +13,7 @@ pub(in crate::ui) fn line(class: &str, points: &[[f64; 2]]) -> Markup {
     }
 }
 
-/// A box with its upper left corner at `place`.
+/// Returns a box with its upper left corner at `place`.
 pub(in crate::ui) fn filled(class: &str, place: [f64; 2], size: [f64; 2]) -> Markup {
     let ([x, y], [width, height]) = (place.map(number), size.map(number));
     html! { rect class=(class) x=(x) y=(y) width=(width) height=(height) {} }
@@ -24,13 +24,13 @@ pub(in crate::ui) fn ring(class: &str, centre: [f64; 2], radius: f64) -> Markup 
     html! { circle class=(class) cx=(x) cy=(y) r=(radius) {} }
 }
 
-/// Words on the base line `y`.
+/// Returns words on the base line `y`.
 pub(in crate::ui) fn text(class: &str, place: [f64; 2], words: &str) -> Markup {
     let [x, y] = place.map(number);
     html! { text class=(class) x=(x) y=(y) { (words) } }
 }
 
-/// At most two decimals.
+/// Formats a number with at most two decimals.
 pub(in crate::ui) fn number(value: f64) -> String {
     let rounded = (value * 100.0).round() / 100.0;
     // Adding zero makes a negative zero positive.
@@ -45,7 +45,7 @@ pub(in crate::ui) struct Sky {
 }
 
 impl Sky {
-    /// The place of a direction; what lies below the horizon is drawn at it.
+    /// Returns the position of a direction; directions below the horizon lie on the horizon.
     pub(in crate::ui) fn point(self, direction: AzEl) -> [f64; 2] {
         let [x, y] = self.centre;
         let from_zenith = (90.0 - direction.elevation_deg()).clamp(0.0, 90.0) / 90.0 * self.radius;
@@ -53,7 +53,7 @@ impl Sky {
         [x + from_zenith * sin, y - from_zenith * cos]
     }
 
-    /// The rings, and the mark of north.
+    /// Returns the rings and the mark of north.
     pub(in crate::ui) fn rings(self) -> Markup {
         let Self { centre, radius } = self;
         let [x, y] = centre;
@@ -66,7 +66,7 @@ impl Sky {
     }
 }
 
-/// A small sky with the track of a pass, and the part that the antenna takes.
+/// Returns a small sky with the track of a pass, and the part that the antenna takes.
 pub(in crate::ui) fn thumbnail(whole: &[AzEl], part: &[AzEl]) -> Markup {
     const RADIUS: f64 = 10.0;
     let sky = Sky { centre: [0.0, 0.0], radius: RADIUS };

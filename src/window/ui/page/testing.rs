@@ -1,11 +1,11 @@
-//! Pages as Chromium prints and shows them.
+//! Tests of pages, as Chromium prints and shows them.
 
 use std::{fs, path::Path, process::Command};
 
-/// A4 at 96 dots an inch, and what stays white of it at each side, less rounding.
+/// Size of an A4 page at 96 dots an inch, and its min white margin after rounding, pixels.
 const SIZE_PX: [u32; 2] = [794, 1123];
 const MARGIN_PX: u32 = 36;
-/// Height at the foot of the page in which its last line stands.
+/// Height of the page foot that contains the last line, pixels.
 const FOOT_PX: u32 = 24;
 
 fn chromium(page: &Path, option: &str) {
@@ -19,8 +19,8 @@ fn chromium(page: &Path, option: &str) {
     assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
 }
 
-/// Proves that Chromium prints a page on one sheet of A4, and that its picture keeps within the margins
-/// and ends with the last line of the page.
+/// Checks that Chromium prints a page on one sheet of A4. The image must keep within the margins
+/// and end with the last line of the page.
 pub(in crate::ui) fn prints_on_one_sheet(html: &str) {
     let folder = tempfile::tempdir().unwrap();
     let [page, pdf, picture] =

@@ -12,7 +12,7 @@ use crate::ui::widgets::{
 
 const GAP: f32 = 6.0;
 
-/// Order and filters, apart from the text.
+/// Order and filters of the list, except the text filter.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Arrangement {
@@ -20,13 +20,13 @@ pub struct Arrangement {
     /// A group of the catalogue; `None` for all satellites.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub group: Option<String>,
-    /// Sunlight over the site when the satellite is highest: the Sun up, down, or either.
+    /// Daylight at the site when the satellite is highest: Sun up, Sun down, or either.
     pub light: Light,
-    /// The Sun shines on the satellite when it is highest.
+    /// `true` for passes in which the Sun shines on the satellite when it is highest.
     pub sunlit: bool,
-    /// The selected antenna can track the pass, or a part of it.
+    /// `true` for passes that the selected antenna can track at least in part.
     pub trackable: bool,
-    /// The satellite has not risen yet.
+    /// `true` for passes whose satellite has not risen yet.
     pub to_come: bool,
 }
 
@@ -36,9 +36,9 @@ pub struct Arrangement {
 pub enum Order {
     #[default]
     Aos,
-    /// Highest first.
+    /// Descending maximum elevation.
     Maximum,
-    /// Longest first.
+    /// Descending duration.
     Duration,
 }
 
@@ -77,7 +77,7 @@ impl Light {
 }
 
 impl Arrangement {
-    /// Differences from the default list, in words.
+    /// Returns the differences from the default list, in words.
     pub(super) fn words(&self) -> String {
         let mut words: Vec<&str> = Vec::new();
         if self.order != Order::Aos {
@@ -129,7 +129,8 @@ impl Chip {
     }
 }
 
-/// The places of the chips from the upper left corner of `room` on, in as many lines as needed.
+/// Returns the places of the chips from the upper left corner of `room`, in as many lines as
+/// needed.
 fn places(ui: &Ui, room: Rect, arrangement: &Arrangement) -> Vec<(Chip, Rect)> {
     let mut position = room.min;
     let place = |chip: &Chip| {
@@ -144,13 +145,13 @@ fn places(ui: &Ui, room: Rect, arrangement: &Arrangement) -> Vec<(Chip, Rect)> {
     CHIPS.iter().map(place).collect()
 }
 
-/// Height of the chips in a column of this `room`.
+/// Returns the height of the chips in a column of this `room`, points.
 pub(super) fn height(ui: &Ui, room: Rect, arrangement: &Arrangement) -> f32 {
     let lowest = places(ui, room, arrangement).last().map_or(0.0, |(_, place)| place.bottom());
     lowest - room.top()
 }
 
-/// Shows the chips from the upper left corner of `room` on.
+/// Shows the chips from the upper left corner of `room`.
 pub(super) fn show(ui: &Ui, room: Rect, model: &PassListModel<'_>, arrangement: &mut Arrangement) {
     for (chip, place) in places(ui, room, arrangement) {
         match chip {

@@ -1,4 +1,4 @@
-//! The filter of the list: a text, and chips below it.
+//! The filter of the list: a text, and chips below the text.
 
 use egui::{Align2, Rect, RichText, Role, TextEdit, Ui, UiBuilder, WidgetInfo, vec2};
 
@@ -14,21 +14,21 @@ use crate::ui::{
     },
 };
 
-/// Height of the line with the text, or with what is filtered.
+/// Height of the line with the filter text or the summary, points.
 const LINE: f32 = 36.0;
-/// Gap between the chips and the divider.
+/// Gap between the chips and the divider, points.
 const BELOW: f32 = 8.0;
 
 const PADDING: f32 = 16.0;
 const GAP: f32 = 8.0;
 
-/// The filter text.
+/// Filter and order of the list, kept from frame to frame.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Filter {
     pub(super) is_open: bool,
     typed: String,
     wants_focus: bool,
-    /// Order and further filters, which stay while the filter is closed.
+    /// Order and further filters. They stay active while the filter is closed.
     pub arrangement: Arrangement,
 }
 
@@ -38,13 +38,13 @@ impl Filter {
         (self.is_open, self.wants_focus) = (true, true);
     }
 
-    /// The filter text; empty for all passes.
+    /// Returns the filter text; empty for all passes.
     pub fn text(&self) -> &str {
         if self.is_open { self.typed.trim() } else { "" }
     }
 }
 
-/// Height of the strip at the top of `rect`, with its divider.
+/// Returns the height of the strip at the top of `rect` with its divider, points.
 pub(super) fn height(ui: &Ui, rect: Rect, filter: &Filter) -> f32 {
     if filter.is_open {
         let room = rect.shrink2(vec2(PADDING, 0.0));
@@ -56,7 +56,7 @@ pub(super) fn height(ui: &Ui, rect: Rect, filter: &Filter) -> f32 {
     }
 }
 
-/// Shows the strip in `rect`: the open filter, or what is filtered.
+/// Shows the strip in `rect`: the open filter, or a summary of the active filters.
 pub(super) fn show(ui: &mut Ui, rect: Rect, model: &PassListModel<'_>, filter: &mut Filter) {
     let t = theme::tokens(ui);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));

@@ -21,22 +21,22 @@ use crate::{
     },
 };
 
-/// Height of the head, with its divider.
+/// Height of the head, with its divider, points.
 pub(super) const HEIGHT: f32 = 72.0;
 
 const PADDING: f32 = 16.0;
 const GAP: f32 = 8.0;
 const MIN_GAP: f32 = 2.0;
-/// Centres of the two lines from the top.
+/// Centres of the two lines from the top, points.
 const LINES: [f32; 2] = [20.0, 52.0];
-/// Width of the choice of satellites.
+/// Width of the choice of satellites, points.
 const SCOPES: f32 = 116.0;
 const FLOOR: &str = "Elevation floor: passes with a lower maximum elevation are not listed. It \
                      applies to the whole station.";
 const SPAN: &str = "How far ahead passes are listed";
-/// Floors closer than this count as equal.
+/// Max difference of two floors that count as equal, degrees.
 const SAME_DEG: f64 = 0.05;
-/// A list below this width has a short title.
+/// Width below which a list has a short title, points.
 const NARROW: f32 = 250.0;
 
 pub(super) fn show(
@@ -84,7 +84,7 @@ pub(super) fn show(
         commands.push(UiCommand::SetScope(*scope));
     }
     let span = second.with_min_x(second.right() - span_menu(model).width(ui));
-    // In the narrowest list the buttons are narrower and stand closer together.
+    // In the narrowest list the buttons are narrower and closer together.
     let free = span.left() - second.left() - SCOPES;
     let side = vec2((free / 2.0 - 1.5 * MIN_GAP).min(SMALL_HEIGHT), SMALL_HEIGHT);
     let gap = ((free - 2.0 * side.x) / 3.0).clamp(MIN_GAP, GAP);
@@ -150,7 +150,7 @@ fn search(ui: &Ui, place: Rect, filter: &mut Filter) {
     }
 }
 
-/// Shows the button that saves the listed passes, or the look angles of the selected one.
+/// Shows the button that saves the listed passes, or the look angles of the selected pass.
 fn save(ui: &Ui, place: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     let (name, is_free) = ("Save passes to a file", model.lock.is_none());
@@ -199,9 +199,8 @@ struct Menu {
     /// Subject and current choice, for screen readers.
     name: String,
     chosen: String,
-    /// The hover text.
     description: &'static str,
-    /// Reason why nothing can be chosen, shown in place of the hover text.
+    /// Reason for a locked menu, which replaces the hover text.
     lock: Option<&'static str>,
 }
 

@@ -9,11 +9,11 @@ use crate::{astro::time::seconds_between, ui::format};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Phase {
     Upcoming,
-    /// The satellite is up and sets within the list.
+    /// A pass of a satellite that is up and sets within the list.
     InProgress,
-    /// The satellite is up and sets after the end of the list.
+    /// A pass of a satellite that is up and sets after the end of the list.
     NoLos,
-    /// The satellite neither rises nor sets within the list.
+    /// A satellite that neither rises nor sets within the list.
     AllTheTime,
     Over,
 }
@@ -34,7 +34,7 @@ impl Phase {
     }
 }
 
-/// The countdown of the row: a word before the time, which may be empty, and the time.
+/// Returns the countdown of the row: a word before the time, possibly empty, and the time.
 pub(super) fn countdown(row: &PassRow<'_>, phase: Phase, now: Timestamp) -> (&'static str, String) {
     match phase {
         Phase::Upcoming => ("", format::countdown(now, row.aos)),
@@ -45,7 +45,7 @@ pub(super) fn countdown(row: &PassRow<'_>, phase: Phase, now: Timestamp) -> (&'s
     }
 }
 
-/// Elapsed part of the pass, 0 to 1. `None` if one of its ends is unknown.
+/// Returns the elapsed part of the pass, 0 to 1. `None` if one of its ends is unknown.
 pub(super) fn progress(row: &PassRow<'_>, phase: Phase, now: Timestamp) -> Option<f32> {
     if phase != Phase::InProgress || row.starts_before {
         return None;
@@ -55,7 +55,8 @@ pub(super) fn progress(row: &PassRow<'_>, phase: Phase, now: Timestamp) -> Optio
     (whole_s > 0.0).then(|| (done_s / whole_s).clamp(0.0, 1.0) as f32)
 }
 
-/// Azimuths of AOS and LOS; an ellipsis for an end outside the list. Empty if both are.
+/// Returns the azimuths of AOS and LOS, with an ellipsis for an end outside the list. Empty if both
+/// ends are outside.
 pub(super) fn azimuths(row: &PassRow<'_>) -> String {
     if row.starts_before && row.ends_after {
         return String::new();
@@ -68,8 +69,8 @@ pub(super) fn azimuths(row: &PassRow<'_>) -> String {
     format!("{start_text} → {end_text}")
 }
 
-/// Duration of the pass, with ">" if one end is outside the list and behind the time clear of
-/// the mask where that is shorter. Empty if both ends are outside.
+/// Returns the duration of the pass, with ">" if one end is outside the list. If the time clear of
+/// the mask is shorter, the text begins with that time. Empty if both ends are outside.
 pub(super) fn duration(row: &PassRow<'_>) -> String {
     let length = format::duration(seconds_between(row.aos, row.los));
     let length = match row.clear_s {
@@ -83,18 +84,19 @@ pub(super) fn duration(row: &PassRow<'_>) -> String {
     }
 }
 
-/// Time of AOS; a dash if it lies before the list, empty if LOS also lies after the list.
+/// Returns the time of AOS: a dash if AOS lies before the list, empty if LOS also lies after the
+/// list.
 pub(super) fn aos_time(row: &PassRow<'_>, now: Timestamp) -> String {
     match (row.starts_before, row.ends_after) {
         (false, _) if format::is_today(row.aos, now) => format::moment(row.aos, now),
-        // The seconds would cost the verdict beside it its room.
+        // With seconds, the verdict next to the time would have no room.
         (false, _) => format::minute(row.aos, now),
         (true, false) => "–".to_owned(),
         (true, true) => String::new(),
     }
 }
 
-/// The pass as one line for other programs and messages, with its day; times are UTC.
+/// Returns the pass as one line for other programs and messages, with its day; times are UTC.
 pub(super) fn copied(row: &PassRow<'_>) -> String {
     let azimuth = |degrees: f64| format::azimuth(degrees);
     let aos = format!("AOS {} at {}", format::copied(row.aos), azimuth(row.aos_azimuth_deg));
@@ -110,7 +112,7 @@ pub(super) fn copied(row: &PassRow<'_>) -> String {
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ")
 }
 
-/// The row for screen readers.
+/// Returns the text of the row for screen readers.
 pub(super) fn spoken(row: &PassRow<'_>, phase: Phase, now: Timestamp) -> String {
     let (word, time) = countdown(row, phase, now);
     let word = match phase {

@@ -18,19 +18,19 @@ use crate::ui::{
     words::WayThere,
 };
 
-/// Height of a row, with its divider.
+/// Height of a row, with its divider, points.
 pub(super) const HEIGHT: f32 = 74.0;
 
 const PADDING: f32 = 16.0;
-/// Gap between thumbnail and text.
+/// Gap between thumbnail and text, points.
 const GAP: f32 = 12.0;
-/// Centres of the three lines from the top of the row.
+/// Centres of the three lines from the top of the row, points.
 const LINES: [f32; 3] = [20.0, 38.5, 56.0];
-/// Distance from the maximum elevation to the azimuths.
+/// Distance from the maximum elevation to the azimuths, points.
 const AZIMUTHS: f32 = 62.0;
-/// Gap between columns.
+/// Gap between columns, points.
 const COLUMN_GAP: f32 = 8.0;
-/// Thickness of the progress line.
+/// Thickness of the progress line, points.
 const BAR: f32 = 3.0;
 
 /// Paints the row in `rect`. Returns `true` if a text was cut.
@@ -66,7 +66,7 @@ pub(super) fn paint(
     name_cut || verdict_cut
 }
 
-/// Paints name and countdown. Returns `true` if the name was cut.
+/// Paints the name and the countdown. Returns `true` if the name was cut.
 fn name_line(
     ui: &Ui,
     rect: Rect,
@@ -92,7 +92,7 @@ fn name_line(
     paint::text_width(ui, row.name, font) > room.width()
 }
 
-/// Paints maximum elevation, azimuths and duration.
+/// Paints the maximum elevation, the azimuths and the duration.
 fn shape_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, t: &Tokens) {
     let small = text::small;
     let maximum = format!("max {}", format::degrees(row.max_elevation_deg, 0));
@@ -105,7 +105,7 @@ fn shape_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, t: &Tokens) {
     paint::text_in(ui, room, Align2::LEFT_CENTER, &phase::azimuths(row), small(), t.t2);
 }
 
-/// Paints verdict and time of AOS. Returns `true` if the verdict was cut.
+/// Paints the verdict and the time of AOS. Returns `true` if the verdict was cut.
 fn verdict_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, now: Timestamp, t: &Tokens) -> bool {
     let position = rect.right_center();
     let time = phase::aos_time(row, now);
@@ -114,7 +114,8 @@ fn verdict_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, now: Timestamp, t: &Toke
     verdict_in(ui, rect.with_max_x(time.left() - COLUMN_GAP), verdict, t)
 }
 
-/// Paints a verdict with its mark, in short where it has no room. Returns `true` if it was cut.
+/// Paints a verdict with its mark, in the short form where space is tight. Returns `true` if the
+/// text was cut.
 pub(super) fn verdict_in(ui: &Ui, rect: Rect, verdict: Verdict<'_>, t: &Tokens) -> bool {
     let (icon, mark, colour) = match verdict {
         Verdict::Trackable => (Icon::Check, t.ok, t.t2),
@@ -137,7 +138,7 @@ pub(super) fn verdict_in(ui: &Ui, rect: Rect, verdict: Verdict<'_>, t: &Tokens) 
     elided(ui, room, &words, text::small(), colour)
 }
 
-/// Paints a text from the left, cut with an ellipsis. Returns `true` if it was cut.
+/// Paints a text from the left, cut with an ellipsis if needed. Returns `true` if the text was cut.
 fn elided(ui: &Ui, room: Rect, text: &str, font: FontId, colour: Color32) -> bool {
     let cut = paint::text_width(ui, text, font.clone()) > room.width();
     paint::text_in(ui, room, Align2::LEFT_CENTER, text, font, colour);

@@ -46,7 +46,7 @@ pub(super) fn show(
     state.remember(scroll, row::HEIGHT, model);
 }
 
-/// The pass to which a step leads from the selected one, or the first pass.
+/// Returns the pass one step away from the selected pass, or the first pass.
 fn stepped<'a>(step: Step, model: &PassListModel<'a>) -> Option<PassRow<'a>> {
     let start = model.selected.and_then(model.place);
     let target = start.map_or(Some(0), |start| step.target(start, model.rows))?;
@@ -72,7 +72,7 @@ fn show_row(
     };
     menu(&response);
     if model.selected == Some(pass.key) {
-        // The keys mean the selected row.
+        // The keys apply to the selected row.
         let focused = list.response.clone().with_new_rect(rect);
         copy_menu::by_key(ui, &focused, || phase::copied(pass));
         menu(&focused);

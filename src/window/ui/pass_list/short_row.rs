@@ -1,4 +1,4 @@
-//! A pass beside the satellite that it belongs to: when, how high, and the verdict.
+//! A pass next to its satellite: time, maximum elevation and verdict.
 
 use egui::{Align2, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
@@ -10,13 +10,13 @@ use crate::ui::{
     widgets::paint,
 };
 
-/// Height of a row.
+/// Height of a row, points.
 pub const SHORT_ROW: f32 = 64.0;
 const PADDING: f32 = 16.0;
-/// Distance of the texts from the left edge.
+/// Distance of the texts from the left edge, points.
 const TEXTS: f32 = 76.0;
 
-/// Shows the row of a pass that begins at `time`, in the words of its place.
+/// Shows the row of a pass that begins at `time`, which is already formatted.
 pub fn short_row(
     ui: &Ui,
     rect: Rect,
@@ -54,7 +54,7 @@ pub fn short_row(
     response
 }
 
-/// Maximum elevation, azimuths and duration, as far as they are known.
+/// Returns maximum elevation, azimuths and duration, as far as they are known.
 fn shape(row: &PassRow<'_>) -> String {
     let max = format!("max {}", format::degrees(row.max_elevation_deg, 0));
     let parts = [max, phase::azimuths(row), phase::duration(row)];

@@ -16,12 +16,12 @@ use crate::{
     },
 };
 
-/// Height of the strip, with its divider.
+/// Height of the strip, with its divider, points.
 pub(super) const HEIGHT: f32 = 36.0;
 
 const PADDING: f32 = 16.0;
 const GAP: f32 = 8.0;
-/// Thickness of the progress bar.
+/// Thickness of the progress bar, points.
 const BAR: f32 = 3.0;
 
 pub(super) fn show(ui: &Ui, rect: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCommand>) {

@@ -25,7 +25,7 @@ fn now() -> Timestamp {
 struct Fixture {
     rows: usize,
     begun: usize,
-    /// Number of passes that are over and gone.
+    /// Number of passes that are over and removed.
     scrolled: usize,
     scope: Scope,
     span_h: u32,
@@ -36,7 +36,7 @@ struct Fixture {
     thumbnails: bool,
     actions: Vec<UiCommand>,
     state: PassListState,
-    /// The highest requested index.
+    /// Highest requested index.
     highest: Rc<Cell<usize>>,
 }
 
@@ -62,7 +62,7 @@ impl Fixture {
 
 const NAMES: [&str; 4] = ["NOAA 20", "METEOR-M2 4", "SUOMI NPP", LONG];
 
-/// The first pass is in progress, the others follow each half hour.
+/// Returns a pass; the first pass is current, and the others follow each half hour.
 fn pass(index: usize, path: &[Sample]) -> PassRow<'_> {
     let aos = add_seconds(now(), 1800.0 * index as f64 - 259.0);
     PassRow {
@@ -301,7 +301,7 @@ fn what_is_filtered_begins_at_its_first_hit() {
         window.get_by_role_and_label(Role::Button, "Filter the list").click();
         window.run();
         window.event(egui::Event::Text("c".to_owned()));
-        // The hits, of which none is the selected pass.
+        // The list shows the hits; none of them is the selected pass.
         (window.state_mut().rows, window.state_mut().begun) = (60, 0);
         window.run();
         let first = |window: &Harness<'_, Fixture>| {
@@ -373,7 +373,7 @@ fn a_long_name_leaves_the_countdown_alone() {
     }
 }
 
-/// The texts painted with their middle in `rect`, and where.
+/// Returns the texts whose centre lies in `rect`, and their places.
 fn painted_texts(window: &Harness<'_, Fixture>, rect: Rect) -> Vec<(String, Rect)> {
     let texts = window.output().shapes.iter().filter_map(|clipped| match &clipped.shape {
         egui::Shape::Text(text) => {

@@ -1,19 +1,19 @@
-//! A small picture of the path of a pass over the sky.
+//! A small plot of the path of a pass over the sky.
 
 use egui::{Pos2, Rect, Shape, Stroke, Ui, Vec2, pos2};
 
 use crate::{astro::AzEl, plan::Sample, ui::theme};
 
-/// Width and height, in points.
+/// Width and height, points.
 pub(super) const SIDE: f32 = 48.0;
 
-/// Minimum distance between points; closer ones would only roughen the line.
+/// Min distance between points; closer points would only roughen the line, points.
 const STEP: f32 = 0.75;
-/// Room for the marks on the rim.
+/// Room for the marks on the rim, points.
 const MARGIN: f32 = 2.0;
 
-/// Paints the path in the middle of `rect`: north up, east right, a dot where
-/// the satellite rises and an arrow where it sets.
+/// Paints the path in the middle of `rect`. North is up and east is right. A dot marks the rise of
+/// the satellite, and an arrow its setting.
 pub(super) fn paint(ui: &Ui, rect: Rect, path: &[Sample]) {
     let t = theme::tokens(ui);
     let painter = ui.painter();
@@ -35,14 +35,14 @@ pub(super) fn paint(ui: &Ui, rect: Rect, path: &[Sample]) {
     }
 }
 
-/// A filled arrow head with its tip at `tip`.
+/// Returns a filled arrow head with its tip at `tip`.
 fn arrow(tip: Pos2, along: Vec2, stroke: Stroke) -> Shape {
     let foot = tip - 4.5 * along;
     let side = 2.2 * along.rot90();
     Shape::convex_polygon(vec![tip, foot + side, foot - side], stroke.color, stroke)
 }
 
-/// The path on the screen, without coinciding points.
+/// Returns the path on the screen, without coinciding points.
 fn points(path: &[Sample], centre: Pos2, radius: f32) -> Vec<Pos2> {
     let mut points: Vec<Pos2> = Vec::new();
     for sample in path {
@@ -54,7 +54,7 @@ fn points(path: &[Sample], centre: Pos2, radius: f32) -> Vec<Pos2> {
     points
 }
 
-/// The point of a direction; on the rim for one below the horizon.
+/// Returns the point of a direction; a direction below the horizon lies on the rim.
 fn project(direction: AzEl, centre: Pos2, radius: f32) -> Option<Pos2> {
     let (azimuth, elevation_deg) = (direction.azimuth.radians(), direction.elevation_deg());
     if !azimuth.is_finite() || !elevation_deg.is_finite() {

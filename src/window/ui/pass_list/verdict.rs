@@ -10,63 +10,64 @@ use crate::{
     },
 };
 
-/// Part of a pass that the selected antenna can take, and whether the schedule wants it to.
+/// The part of a pass that the selected antenna can track, and its place in the schedule.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Verdict<'a> {
-    /// The mount tracks the whole pass.
+    /// A pass that the mount tracks completely.
     Trackable,
-    /// The mount loses part of the pass.
+    /// A pass of which the mount loses a part.
     Loses {
-        /// Lost time.
+        /// Lost time, seconds.
         seconds: f64,
         /// Place where the loss begins.
         loss: Loss,
     },
-    /// The mount tracks the whole pass, but the horizon mask blocks the beam.
+    /// A pass that the mount tracks completely, but the horizon mask blocks the beam.
     Blocked {
-        /// Blocked time.
+        /// Blocked time, seconds.
         seconds: f64,
-        /// No part is clear of it.
+        /// `true` if no part of the pass is clear of the mask.
         is_whole: bool,
     },
-    /// The antenna could track it, but not before it has slewed there from where it stands.
+    /// A pass that the antenna could track, but not before it has slewed there from its current
+    /// position.
     Way(WayThere),
-    /// The mount can follow, but the unit would miss according to its own settings.
+    /// A pass that the mount could track, but the unit would miss because of its own settings.
     Misses,
-    /// All of the pass is out of the reach of the mount.
+    /// A pass that lies completely out of reach of the mount.
     OutOfReach,
-    /// The pass stays below the minimum elevation of the antenna.
+    /// A pass that stays below the minimum elevation of the antenna.
     TooLow,
-    /// Not trackable now: the unit is in maintenance.
+    /// A pass that the antenna cannot track now because its unit is in maintenance.
     InMaintenance,
-    /// The antenna could track it, but the schedule leaves it out.
+    /// A pass that the antenna could track, but the schedule leaves out.
     LeftOut(LeftOut<'a>),
 }
 
-/// Why the schedule leaves a pass out for an antenna.
+/// Reason why the schedule leaves a pass out for an antenna.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LeftOut<'a> {
-    /// The pass of this satellite is taken at the same time.
+    /// Overlap with a pass of this satellite that the schedule takes.
     Overlaps(&'a str),
-    /// No time for slew and set-up beside the pass of this satellite.
+    /// Too little time to slew and set up between this pass and the pass of this satellite.
     TooClose(&'a str),
-    /// This antenna takes it.
+    /// Antenna that takes the pass.
     TakenBy(&'a str),
     TooFar,
-    /// The pass has begun.
+    /// A pass that has begun.
     UnderWay,
-    /// The operator chose so.
+    /// Exclusion by the operator.
     Never,
-    /// A limit of the satellite or of the station.
+    /// Exclusion by a limit of the satellite or of the station.
     Limit,
-    /// The antenna takes no passes.
+    /// An antenna that takes no passes.
     Off(AntennaOff),
-    /// No schedule with it is known to be worth more.
+    /// A pass that adds no worth to any known schedule.
     WorthLess,
 }
 
 impl LeftOut<'_> {
-    /// The reason alone, such as "overlaps METOP-B".
+    /// Returns only the reason, such as "overlaps METOP-B".
     fn reason(self) -> Cow<'static, str> {
         match self {
             Self::Overlaps(name) => format!("overlaps {name}").into(),
@@ -83,7 +84,7 @@ impl LeftOut<'_> {
     }
 }
 
-/// The azimuth of a keyhole, as a point of the compass where it is one.
+/// Formats the azimuth of a keyhole, as a compass point where it matches one.
 fn text_towards(degrees: f64) -> String {
     match degrees.round() as i32 % 360 {
         0 => "N".to_owned(),
@@ -95,7 +96,7 @@ fn text_towards(degrees: f64) -> String {
 }
 
 impl Verdict<'_> {
-    /// The verdict in words, such as "Loses 12 s at keyhole N".
+    /// Returns the verdict in words, such as "Loses 12 s at keyhole N".
     pub(super) fn sentence(self) -> Cow<'static, str> {
         match self {
             Self::Trackable => "Trackable".into(),
@@ -127,7 +128,8 @@ impl Verdict<'_> {
         }
     }
 
-    /// The verdict where [`Self::sentence`] has no room: the reason is what stays.
+    /// Returns a shorter verdict for places without room for [`Self::sentence`]. It keeps the
+    /// reason.
     pub(super) fn short(self) -> Cow<'static, str> {
         match self {
             Self::Blocked { is_whole: true, .. } => "Mask blocks it".into(),

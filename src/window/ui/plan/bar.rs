@@ -24,7 +24,7 @@ pub(super) const HEIGHT: f32 = 56.0;
 const GAP: f32 = 8.0;
 const SPANS_H: [(f64, &str); 4] = [(12.0, "12 h"), (24.0, "24 h"), (48.0, "48 h"), (168.0, "7 d")];
 const SPANS: f32 = 200.0;
-/// Minimum width of the title.
+/// Min width of the title, points.
 const TITLE: f32 = 176.0;
 
 pub(super) fn show(
@@ -164,7 +164,7 @@ fn choose_by(
     }
 }
 
-/// Words and command of the button that rehearses the whole plan or cancels that.
+/// Returns label and command of the button that rehearses the whole plan or cancels the rehearsal.
 fn rehearsal(model: &Model) -> (String, UiCommand) {
     match model.rehearsal {
         RehearsalState::UnderWay(share) => {

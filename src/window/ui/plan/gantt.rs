@@ -25,22 +25,23 @@ use crate::{
 };
 
 const HEAD: f32 = 40.0;
-/// Height of the middle of the hours above the rows; the grip of the lanes has its room below them.
+/// Height of the middle of the hours above the rows, points. The grip of the lanes needs the room
+/// below them.
 const HOURS_UP: f32 = 14.0;
 const ROW: f32 = 21.0;
-/// Heights of the bars for 0° and 90° of maximum elevation.
+/// Heights of the bars for 0° and 90° of maximum elevation, points.
 const BARS: std::ops::RangeInclusive<f32> = 7.0..=19.0;
-/// Minimum distance between two hours with their numbers.
+/// Min distance between two labelled hours, points.
 const HOUR_APART: f32 = 36.0;
 const DAY_S: i64 = 86_400;
-/// By how much an arrow key moves the part of the lanes, seconds.
+/// Time by which an arrow key moves the section of the lanes, seconds.
 const KEY_S: f64 = 3600.0;
 
 pub(super) fn height(rows: usize) -> f32 {
     HEAD + rows.max(1) as f32 * ROW
 }
 
-/// The whole plan.
+/// Returns the time axis of the whole plan.
 fn axis(model: &Model, place: Rect) -> TimeAxis {
     TimeAxis::lasting(model.now, model.station.scheduling.span_h * 3600.0, place.x_range())
 }
@@ -61,7 +62,7 @@ pub(super) fn show(
     heads(ui, head, time(head), axis);
     let framed = time(rect).with_min_y(head.bottom());
     let frame = if satellites.is_empty() { None } else { frame(ui, framed, model, axis, state) };
-    // One stop of Tab: arrows go through the passes.
+    // The list is one Tab stop; arrow keys move through the passes.
     let list = ui.interact(body, ui.make_persistent_id("plan passes"), Sense::FOCUSABLE);
     list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, "Passes by satellite"));
     if satellites.is_empty() {
@@ -95,7 +96,7 @@ pub(super) fn show(
     show_focus(ui, &list);
 }
 
-/// The day is a little lighter than the night.
+/// Draws day and night; the day is slightly lighter.
 fn day_and_night(ui: &Ui, place: Rect, model: &Model, axis: TimeAxis) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(place, 0.0, t.bg0);
@@ -106,7 +107,7 @@ fn day_and_night(ui: &Ui, place: Rect, model: &Model, axis: TimeAxis) {
     }
 }
 
-/// Days over hours.
+/// Draws the heads: days above hours.
 fn heads(ui: &Ui, head: Rect, place: Rect, axis: TimeAxis) {
     let t = theme::tokens(ui);
     ui.painter().hline(head.x_range(), head.bottom() - 0.5, (1.0, t.line));
@@ -135,8 +136,8 @@ fn heads(ui: &Ui, head: Rect, place: Rect, axis: TimeAxis) {
             (axis.x(time).max(place.left()), width, word)
         })
         .collect();
-    // Where two days have no room for both labels, the later one stays: without it, its times would
-    // lack their day.
+    // If the labels of two days overlap, the later label stays. Without it, its times would lack
+    // their day.
     let mut end = place.right();
     for (x, width, word) in labels.into_iter().rev() {
         if x + width <= end {
@@ -244,7 +245,7 @@ fn bar(
     response.on_hover_text(name);
 }
 
-/// A pass in words.
+/// Describes a pass for screen readers.
 fn spoken(model: &Model, planned: &PlannedPass<'_>) -> String {
     let predicted = planned.predicted;
     let pass = &predicted.pass;
@@ -271,8 +272,8 @@ fn spoken(model: &Model, planned: &PlannedPass<'_>) -> String {
     format!("{name}, {times}, {max}. {subject}{choice}")
 }
 
-/// Draws the grip above the frame of the part that the lanes show; it or the arrow keys move that.
-/// Returns the frame.
+/// Draws the grip above the frame of the section in the lanes. Dragging the grip or pressing arrow
+/// keys moves the section. Returns the frame.
 fn frame(
     ui: &Ui,
     place: Rect,
@@ -284,7 +285,8 @@ fn frame(
     let lanes = super::lanes::axis(model, place, state);
     let x = axis.range(lanes.start(), lanes.end())?;
     let rect = Rect::from_x_y_ranges(x, place.y_range()).shrink(0.5);
-    // The grip stands wholly above the rows: it leaves the bars to clicks, and is read before them.
+    // The grip lies completely above the rows. The bars stay clickable, and screen readers read the
+    // grip first.
     let grip = rect.with_max_y(rect.top() + 8.0);
     let grip = grip.expand2(vec2(4.0, 0.0)).translate(vec2(0.0, -8.5));
     let id = ui.make_persistent_id("lanes frame");
@@ -312,7 +314,7 @@ fn frame(
     Some(rect)
 }
 
-/// Number of steps by which keys moved the grip while it has the focus.
+/// Returns the number of steps by which keys have moved the grip while it has the focus.
 fn by_keys(ui: &Ui, response: &Response) -> i32 {
     if !response.has_focus() {
         return 0;

@@ -1,4 +1,4 @@
-//! The selected pass: its path, times, what each antenna can take of it, and the operator's choice.
+//! The selected pass: path, times, the part that each antenna can track, and the operator's choice.
 
 use egui::{Align2, Frame, Margin, Rect, Sense, Ui, pos2, vec2};
 
@@ -123,7 +123,8 @@ fn parts(
     });
 }
 
-/// Outcome of the pass in the last rehearsal, which is not recorded, and the button for a new one.
+/// Shows the outcome of the pass in the last rehearsal, which is not recorded, and the button for a
+/// new rehearsal.
 fn rehearsal(
     ui: &mut Ui,
     width: f32,
@@ -190,7 +191,7 @@ fn facts(model: &Model, entry: &Entry) -> Vec<(&'static str, String)> {
     facts
 }
 
-/// Words for the part that an antenna has in the pass, with icon and colour.
+/// Returns icon, colour and words for the part of the pass that an antenna can track.
 fn verdict(
     model: &Model,
     planned: &PlannedPass<'_>,
@@ -233,7 +234,7 @@ fn verdict(
     }
 }
 
-/// Cost of taking a pass that is left out.
+/// Shows the cost of taking a pass that is left out.
 fn price(
     ui: &mut Ui,
     width: f32,
@@ -251,11 +252,11 @@ fn price(
             None => "Always is not available: no antenna can track enough of this pass.".to_owned(),
         }
     } else if model.replay.is_some() {
-        // Nobody works out what nobody asked then.
+        // A replay shows only prices that the operator requested at the time.
         return;
     } else {
         let ask = UiCommand::Station(contract::Command::PriceSwap(key));
-        // Asked once a pass and schedule; the answer wakes the window.
+        // The view asks once per pass and schedule; the answer wakes the window.
         let id = ui.make_persistent_id("swap asked");
         let request = (key, model.schedule.revision);
         if ui.data(|data| data.get_temp(id)) != Some(request) {
@@ -267,7 +268,7 @@ fn price(
     note(ui, width, "plan price", &words);
 }
 
-/// Words in a box of their own.
+/// Shows a text in its own box.
 fn note(ui: &mut Ui, width: f32, salt: impl egui::AsIdSalt, words: &str) {
     let t = theme::tokens(ui);
     let room = width - 2.0 * PADDING - 24.0;
@@ -280,7 +281,7 @@ fn note(ui: &mut Ui, width: f32, salt: impl egui::AsIdSalt, words: &str) {
     paint::name_text(ui, salt, place, words);
 }
 
-/// The operator's choice for this pass, and the priority of its satellite.
+/// Shows the operator's choice for this pass, and the priority of its satellite.
 fn controls(
     ui: &mut Ui,
     width: f32,

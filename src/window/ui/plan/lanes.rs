@@ -31,12 +31,12 @@ use crate::{
 const BAR: f32 = 32.0;
 const AXIS: f32 = 20.0;
 const LANE: f32 = 50.0;
-/// Width of the names and switches.
+/// Width of the names and switches, points.
 const LABEL: f32 = 252.0;
-/// Time before now in the lanes, so that a pass under way keeps its bar, seconds.
+/// Time before now in the lanes, seconds, so that a current pass keeps its bar.
 const PAST_S: f64 = 1200.0;
 const ENTRY: f32 = 22.0;
-/// Height of a name above a bar, and the room at each of its sides.
+/// Height of a name above a bar, and the min gap at each of its sides, points.
 const NAME: f32 = 13.0;
 const NAME_GAP: f32 = 3.0;
 
@@ -44,7 +44,7 @@ pub(super) fn height(lanes: usize) -> f32 {
     BAR + AXIS + lanes as f32 * LANE
 }
 
-/// The part of the plan in the lanes.
+/// Returns the time axis of the lanes.
 pub(super) fn axis(model: &Model, place: Rect, state: &PlanState) -> TimeAxis {
     let start = add_seconds(model.now, state.lanes_after_s - PAST_S);
     TimeAxis::lasting(start, state.lanes_h() * 3600.0, place.x_range())
@@ -131,7 +131,7 @@ fn title(ui: &Ui, bar: Rect, model: &Model, satellites: &[PlannedSatellite<'_>],
         .on_hover_text(worth(model));
 }
 
-/// Worth of the schedule, class by class.
+/// Returns the worth of the schedule, class by class.
 fn worth(model: &Model) -> String {
     let choose_by = model.station.scheduling.choose_by;
     let classes = model.schedule.schedule.worth.iter();
@@ -151,7 +151,7 @@ fn hours(ui: &Ui, names: Rect, axis: TimeAxis) {
     }
 }
 
-/// The half or full hours of the lanes.
+/// Returns the half or full hours of the lanes.
 fn marks(axis: TimeAxis) -> impl Iterator<Item = jiff::Timestamp> {
     axis.multiples(if axis.seconds() > 7.0 * 3600.0 { 3600 } else { 1800 })
 }
@@ -271,14 +271,14 @@ fn lane(
             "Nothing is planned."
         };
         let room = place.shrink2(vec2(PADDING, 0.0));
-        // Beside the line of now, not through it.
+        // The words stand next to the line of now, not on it.
         let now = axis.x(model.now) + 8.0;
         let room = room.with_min_x(room.left().max(now.min(room.right())));
         paint::text_in(ui, room, Align2::LEFT_CENTER, words, text::small(), t.t3);
     }
 }
 
-/// The wait after the entry before, and the slew to the next one.
+/// Draws the wait after the previous entry, and the slew to the next one.
 fn way(ui: &Ui, y: f32, before: jiff::Timestamp, entry: &Entry, axis: TimeAxis) {
     let t = theme::tokens(ui);
     let slew_s = entry.slew_s + entry.set_up_s;
@@ -305,7 +305,7 @@ struct NamedBar {
     name: String,
 }
 
-/// Writes the names above the bars, short ones where bars are close to each other.
+/// Draws the names above the bars; close bars get short names.
 fn names(ui: &Ui, place: Rect, bars: &[NamedBar]) {
     let t = theme::tokens(ui);
     let shorts: Vec<String> = bars.iter().map(|bar| labels::short_name(&bar.name)).collect();

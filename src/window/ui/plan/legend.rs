@@ -13,10 +13,11 @@ const MARK: Vec2 = vec2(14.0, 10.0);
 const MARK_GAP: f32 = 6.0;
 const ENTRY_GAP: f32 = 16.0;
 
-/// Paints the mark of an entry.
+/// Function that paints the mark of an entry.
 type Mark = fn(&Ui, Rect, &Tokens);
 
-/// From right to left; those without room are left out, from the left.
+/// Entries of the legend from right to left. The legend leaves out the leftmost entries if space is
+/// short.
 const ENTRIES: [(Mark, &str); 6] = [
     (|ui, rect, _| pass_bar::paint(ui, rect, BarForm::Missed), "missed"),
     (|ui, rect, _| pass_bar::paint(ui, rect, BarForm::Done), "done"),
@@ -39,7 +40,7 @@ const ENTRIES: [(Mark, &str); 6] = [
     ),
 ];
 
-/// Shows the entries that have room at the right of `rect`.
+/// Shows the entries that fit at the right of `rect`.
 pub(super) fn show(ui: &Ui, rect: Rect) {
     let t = theme::tokens(ui);
     let mut right = rect.right();

@@ -1,5 +1,5 @@
-//! The passes of the chosen antenna in the order in which they are carried out: those that are
-//! over, those that it takes and those that it leaves out.
+//! The passes of the chosen antenna in the order of execution: passes that are over, taken or left
+//! out.
 
 use egui::{Align2, Color32, Rect, Role, Ui, WidgetInfo, pos2, vec2};
 
@@ -33,29 +33,29 @@ const BAR: f32 = 32.0;
 const HEAD: f32 = 22.0;
 const ROW: f32 = 25.0;
 const SEGMENTS: f32 = 236.0;
-/// Spare time below which a row has a caution, seconds.
+/// Spare time below which a row shows a caution, seconds.
 const SHORT_S: f64 = 60.0;
-/// Minimum width for all columns: the smallest window has less.
+/// Min width for all columns, points; the smallest window has less.
 const ALL_FROM: f32 = 1000.0;
-/// Below this width, beside the drawer, a row has no room but for what cannot be read elsewhere.
+/// Width below which a row next to the drawer shows only facts that no other place shows, points.
 const LEAN_BELOW: f32 = 760.0;
-/// Width from which the column of the slew grows, by at most [`MORE_SLEW`].
+/// Width from which the slew column grows by at most [`MORE_SLEW`], points.
 const WIDE_FROM: f32 = 1024.0;
 const MORE_SLEW: f32 = 120.0;
-/// Width of the names of satellites: those of large constellations have 15 characters.
+/// Width of satellite names, points: names in large constellations have 15 characters.
 const NAME: f32 = 138.0;
-/// The same where there is no room but for what cannot be read elsewhere.
+/// Width of satellite names in a lean row, points.
 const LEAN_NAME: f32 = 100.0;
-/// Width of the notes, with *Swap*, from which any reason has room in their column.
+/// Min width of the notes column with *Swap* in which any reason fits, points.
 const WIDE_NOTES: f32 = 460.0;
 
-/// The min height: ten rows below the heads, three in a low window.
+/// Returns the min height, points: ten rows below the heads, or three in a low window.
 pub(super) fn min_height(is_low: bool) -> f32 {
     let rows = if is_low { 3.0 } else { 10.0 };
     BAR + HEAD + rows * ROW
 }
 
-/// The columns, each with its left end, or its right end for times and numbers.
+/// Columns of a row: the left end of each text, and the right end of times and numbers.
 #[derive(Clone, Copy)]
 struct Columns {
     state: f32,
@@ -63,12 +63,12 @@ struct Columns {
     los: Option<f32>,
     name: f32,
     max: Option<f32>,
-    /// Left end of the slew and right end of the spare time, where there is room.
+    /// Left end of the slew and right end of the spare time, points, if both fit.
     slew: Option<(f32, f32)>,
     text: f32,
-    /// A reason has room in the column of the notes; else it begins in that of the slew.
+    /// `true` if a reason fits in the notes column; otherwise the reason begins in the slew column.
     has_wide_notes: bool,
-    /// The rows have *Swap*. The drawer has it for the selected pass.
+    /// `true` if the rows have *Swap*. The drawer offers it for the selected pass.
     swaps: bool,
 }
 
@@ -85,7 +85,7 @@ impl Columns {
             let swaps = !is_lean;
             return Self { state: 16.0, aos, los, name, max, slew, text, has_wide_notes, swaps };
         }
-        // The names of satellites are shown whole where there is room.
+        // Satellite names are complete where space permits.
         let more = (width - WIDE_FROM).clamp(0.0, MORE_SLEW);
         let name = 418.0;
         let max = name + NAME + 30.0;
@@ -195,7 +195,7 @@ fn show_bar(
     paint::text_in(ui, room, Align2::LEFT_CENTER, &note, text::small(), t.t2);
 }
 
-/// Nothing is carried out while automatic operation is off.
+/// Returns the title. Azel executes nothing while automatic operation is off.
 fn title(antenna: &AntennaModel) -> String {
     let name = &antenna.config.name;
     if antenna.operation.is_on() {
@@ -230,7 +230,7 @@ fn heads(ui: &Ui, head: Rect, columns: Columns) {
     cell(columns.text, left, "Notes");
 }
 
-/// Icon, words and colour of a state.
+/// Returns icon, words and colour of a state.
 fn state(
     model: &Model,
     antenna: &AntennaModel,
@@ -278,7 +278,7 @@ fn state(
     }
 }
 
-/// Loss or cut of a pass, the reason why it is left out, or the reason why it was taken.
+/// Returns the loss or cut of a pass, or the reason why the schedule takes it or leaves it out.
 fn reason(model: &Model, antenna: &AntennaModel, listed: &ListedPass<'_>) -> (String, bool) {
     let always = listed.planned.as_ref().and_then(|planned| planned.choice);
     match listed.standing {
@@ -400,7 +400,7 @@ fn show_row(
     let mut end = row.right() - PADDING;
     let can_swap = columns.swaps && matches!(listed.standing, Standing::LeftOut(_));
     if let (true, Some(planned)) = (can_swap, &listed.planned) {
-        // Known as soon as the inspector has shown the price.
+        // Azel knows the reason once the inspector has shown the price.
         let cannot = cannot_swap(model, listed.key);
         let button = Button::normal("Swap").locked(cannot).locked_by(replay::lock(model));
         let width = button.width(ui);

@@ -19,12 +19,12 @@ use crate::{
     },
 };
 
-/// Time in which a change can be undone, seconds.
+/// Time in which the operator can undo a change, seconds.
 const UNDO_S: f64 = 10.0;
-/// Spans of the lanes, hours.
+/// Selectable spans of the lanes, hours.
 const LANES_H: [f64; 5] = [1.5, 3.0, 4.5, 6.0, 12.0];
 
-/// Which passes the list shows.
+/// Selection of passes in the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Shown {
     #[default]
@@ -38,16 +38,16 @@ pub(super) enum Shown {
 pub struct PlanState {
     pub(super) shown: Shown,
     pub(super) inspector_is_open: bool,
-    /// Start of the lanes after the start of the plan, seconds.
+    /// Time from the start of the plan to the start of the lanes, seconds.
     pub(super) lanes_after_s: f64,
     pub(super) scroll: Scroll,
     zoom: usize,
-    /// The switches of automatic operation that are held.
+    /// Hold state of the switches of automatic operation, by antenna.
     holds: BTreeMap<AntennaId, HoldState>,
     undo: Option<Undo>,
 }
 
-/// Command that takes a change of the plan back.
+/// Command that undoes a change of the plan.
 pub(super) struct Undo {
     pub(super) command: UiCommand,
     pub(super) words: String,
@@ -55,13 +55,13 @@ pub(super) struct Undo {
 }
 
 impl PlanState {
-    /// Hours in the lanes.
+    /// Returns the span of the lanes, hours.
     pub(super) fn lanes_h(&self) -> f64 {
         let place = (LANES_H.len() / 2 + self.zoom) % LANES_H.len();
         LANES_H.get(place).copied().unwrap_or(4.5)
     }
 
-    /// Shows fewer hours in the lanes, or more.
+    /// Zooms the lanes to fewer or more hours.
     pub fn change_zoom(&mut self, is_closer: bool) {
         let half = LANES_H.len() / 2;
         let place = (half + self.zoom) % LANES_H.len();
@@ -70,12 +70,12 @@ impl PlanState {
         self.zoom = (place + LANES_H.len() - half) % LANES_H.len();
     }
 
-    /// Shows the usual hours from now on.
+    /// Resets the lanes to the default span from now on.
     pub fn reset_zoom(&mut self) {
         (self.zoom, self.lanes_after_s) = (0, 0.0);
     }
 
-    /// Changes the plan, in a way that can be undone for some seconds.
+    /// Changes the plan; the operator can undo the change for some seconds.
     pub(super) fn change(
         &mut self,
         model: &Model,
@@ -89,12 +89,12 @@ impl PlanState {
         self.undo = Some(Undo { command, words: words.to_owned(), start: model.now });
     }
 
-    /// The last change was not made.
+    /// Discards the undo step, because the last change failed.
     pub fn was_not_changed(&mut self) {
         self.undo = None;
     }
 
-    /// The pass that the list shows before or after the selected one.
+    /// Returns the pass before or after the selected one in the list.
     pub fn neighbour(&self, model: &Model, step: isize) -> Option<PassListKey> {
         let all = model.planned_passes();
         let keys: Vec<PassListKey> = all.iter().map(|planned| planned.predicted.key()).collect();
@@ -104,7 +104,7 @@ impl PlanState {
         keys.get(place?).copied()
     }
 
-    /// Chooses the selected pass for the schedule, or against it.
+    /// Includes the selected pass in the schedule or excludes it.
     pub fn choose(&mut self, model: &Model, take: Option<Take>, commands: &mut Vec<UiCommand>) {
         if let Some(planned) = model.selected_planned() {
             self.choose_for(model, &planned, take, commands);
@@ -125,7 +125,8 @@ impl PlanState {
         }
     }
 
-    /// The question whether the selected pass, which is left out, is to be taken.
+    /// Returns the question whether the schedule should take the selected pass, which it leaves
+    /// out.
     pub fn ask_to_swap(&self, model: &Model) -> Option<Question> {
         let planned = model.selected_planned().filter(|planned| planned.entries.is_empty())?;
         let key = planned.predicted.key();

@@ -1,4 +1,5 @@
-//! The switch of automatic operation of an antenna, held for a second to switch it on.
+//! The switch of automatic operation of an antenna. The operator holds it for a second to switch
+//! on.
 
 use egui::{Rect, Role, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
@@ -15,13 +16,13 @@ use crate::{
 const WIDTH: f32 = 36.0;
 const HEIGHT: f32 = 20.0;
 
-/// The place of the switch in the label of a lane.
+/// Returns the place of the switch in the label of a lane.
 pub(super) fn place(label: Rect) -> Rect {
     let min = pos2(label.right() - 12.0 - WIDTH, label.top() + 7.0);
     Rect::from_min_size(min, vec2(WIDTH, HEIGHT))
 }
 
-/// Draws the switch. Off takes a click; on has to be held for a second.
+/// Draws the switch. A click switches it off; a hold of one second switches it on.
 pub(super) fn show(
     ui: &Ui,
     rect: Rect,

@@ -1,4 +1,4 @@
-//! The page of one antenna: its fields, and what they change of the passes to come.
+//! The page of one antenna: its fields, and their effect on the predicted passes.
 
 mod effect;
 pub(super) mod peaks;
@@ -37,7 +37,7 @@ use crate::{
     },
 };
 
-/// Width of the plot in the preview.
+/// Width of the plot in the preview, points.
 const PLOT: f32 = 224.0;
 
 /// Shows the page of the antenna.
@@ -129,7 +129,7 @@ pub(super) fn show(
     }
 }
 
-/// Shows what Azel has learned of each drive, and lets the operator reset it.
+/// Shows the learned parameters of each drive, and lets the operator reset them.
 fn learned_drives(ui: &mut Ui, antenna: &AntennaModel, commands: &mut Vec<UiCommand>) {
     let can = antenna.config.connection.variant().capabilities;
     let axes = can.axes.iter().zip(&antenna.snapshot.learned).take(can.axis_count());
@@ -149,7 +149,7 @@ fn learned_drives(ui: &mut Ui, antenna: &AntennaModel, commands: &mut Vec<UiComm
     });
 }
 
-/// Shows the reach of an antenna, and beside it what comes of the passes.
+/// Shows the reach of an antenna, and the effect on the passes next to it.
 fn reach_and_effect(
     ui: &mut Ui,
     was: &Antenna,

@@ -1,5 +1,4 @@
-//! Fields of an antenna of any make: those of its connection and mount, and those that
-//! every antenna has.
+//! Fields of an antenna of any make: connection, mount, and the fields that every antenna has.
 
 use super::{
     connection_fields,
@@ -13,14 +12,14 @@ use crate::{
 
 type AntennaDescription = Description<Antenna>;
 
-/// Sections of the page, each of which is a card.
+/// Titles of the cards of the page.
 const MOUNT: &str = "Mount and travel";
 pub(super) const POINTING: &str = "Pointing model";
 pub(in crate::ui) const UPKEEP: &str = "Upkeep between passes";
 const FOLLOWING: &str = "Following and outages";
 pub(super) const WATCH: &str = "Polling and supervision";
 
-/// All fields that an antenna of this make may have.
+/// Returns all fields that an antenna of this make may have.
 pub(super) fn all(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     let mut all = connection_fields::unit(spec);
     all.extend(placed(UPKEEP, upkeep()));
@@ -82,7 +81,7 @@ fn mount() -> [AntennaDescription; 7] {
     ]
 }
 
-/// Azimuth of the lower axis, and both ends of the travel, for a mount with crossed axes.
+/// Returns the azimuth of the lower axis and both ends of the travel, for an X/Y mount.
 fn xy(antenna: &mut Antenna) -> Option<[&mut f64; 3]> {
     match &mut antenna.mount {
         Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, travel_to_deg } => {
@@ -92,7 +91,7 @@ fn xy(antenna: &mut Antenna) -> Option<[&mut f64; 3]> {
     }
 }
 
-/// Both ends of azimuth and elevation, for an elevation-over-azimuth mount.
+/// Returns both ends of azimuth and elevation, for an elevation-over-azimuth mount.
 fn az_el(antenna: &mut Antenna) -> Option<[&mut f64; 4]> {
     match &mut antenna.mount {
         Mount::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_from_deg, elevation_to_deg } => {
@@ -144,7 +143,8 @@ fn poll() -> [AntennaDescription; 2] {
     ]
 }
 
-/// A pointing term of an az/el mount: the difference between the axes and the direction of the beam.
+/// Returns the field of a pointing term of an az/el mount: a difference between the axes and the
+/// direction of the beam.
 fn pointing(term: Term) -> AntennaDescription {
     let (range, unit) = if term == Term::ElevationScale {
         (ranges::POINTING_SCALE, "°/°")
@@ -161,7 +161,7 @@ fn pointing(term: Term) -> AntennaDescription {
     }
 }
 
-/// The model of an antenna whose tracks Azel leads by an azimuth axis.
+/// Returns the pointing model of an az/el antenna that takes positions from Azel.
 pub(super) fn model(antenna: &mut Antenna) -> Option<&mut PointingModel> {
     let has_model = takes_positions(antenna) && matches!(antenna.mount, Mount::AzEl { .. });
     has_model.then_some(&mut antenna.pointing_model)
@@ -315,7 +315,7 @@ fn takes_positions(antenna: &Antenna) -> bool {
     antenna.connection.variant().capabilities.takes_positions
 }
 
-/// Returns `true` if the antenna turns both angles of the sky.
+/// Returns `true` if the antenna moves in azimuth and elevation.
 pub(super) fn has_elevation(antenna: &Antenna) -> bool {
     antenna.connection.variant().capabilities.has_elevation()
 }

@@ -1,5 +1,5 @@
-//! The page of how the window looks. It is used at once and belongs to this window, not to the
-//! station file.
+//! The page of the window's appearance. Choices take effect immediately and belong to this window,
+//! not to the station file.
 
 use std::borrow::Cow;
 
@@ -20,7 +20,7 @@ const CLOCK: &str = "Local time";
 const DECIMALS: &str = "Decimals of angles";
 const DISTANCES: &str = "Distances";
 
-/// The choices, for the search.
+/// Returns the labels of the choices for the search.
 pub(super) fn labels() -> Vec<(Cow<'static, str>, Spot)> {
     search::on_page(&[THEME, SUN, SCALE, CLOCK, DECIMALS, DISTANCES])
 }

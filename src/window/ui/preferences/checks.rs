@@ -1,4 +1,4 @@
-//! Conditions that the settings must meet before they are saved.
+//! Checks that the settings must pass before Azel saves them.
 
 use super::{draft::Draft, page::Page};
 use crate::{
@@ -8,22 +8,23 @@ use crate::{
     ui::{format, widgets::status_line::Tone},
 };
 
-/// Slack within which a travel counts as that of the unit, degrees.
+/// Max difference between a travel and the travel of the unit that counts as equal, degrees.
 const SAME_DEG: f64 = 0.5;
 
 /// The result of the checks.
 pub(super) struct Checks {
-    /// The reason to wait.
+    /// Reason why saving has to wait.
     pub(super) busy: Option<String>,
-    /// An antenna stands where it must not after the change; saving has to be held.
+    /// Problem of an antenna that would stand in a keep-out after the change; the operator has to
+    /// hold the button to save.
     pub(super) barrier_problem: Option<String>,
-    /// All checks in words, the gravest first.
+    /// All checks in words, the most severe first.
     pub(super) lines: Vec<(Tone, String)>,
 }
 
 impl Checks {
-    /// Checks the draft against `station`, which is as saved; `after` is the station of the draft
-    /// once every field is right.
+    /// Checks the draft against the saved `station`; `after` is the station of the draft once every
+    /// field is valid.
     pub(super) fn new(
         model: &Model,
         station: &Station,
@@ -49,7 +50,7 @@ impl Checks {
     }
 }
 
-/// The fields that cannot be used, by the first of them.
+/// Describes the invalid fields, starting with the first one.
 fn unusable(draft: &Draft) -> Option<String> {
     let pages = Page::all(draft).into_iter();
     let named: Vec<String> = pages
@@ -69,7 +70,7 @@ fn unusable(draft: &Draft) -> Option<String> {
     }
 }
 
-/// The rules that are on and cannot act, by the first of them.
+/// Describes the enabled rules that cannot act, starting with the first one.
 fn idle_rules(draft: &Draft) -> Option<String> {
     let idle = draft.rules.idle(&draft.around_rules());
     let (number, reason) = idle.first()?;
@@ -79,7 +80,7 @@ fn idle_rules(draft: &Draft) -> Option<String> {
     })
 }
 
-/// Antennas that the station loses. Those of the demonstration are not among its own.
+/// Returns the antennas that saving removes. Antennas of the demonstration do not count.
 fn removed(model: &Model, after: &Station) -> impl Iterator<Item = String> {
     let is_kept = |id| after.antennas.iter().any(|antenna| antenna.id == id);
     let missing = model
@@ -91,7 +92,7 @@ fn removed(model: &Model, after: &Station) -> impl Iterator<Item = String> {
     })
 }
 
-/// Antennas whose new travel goes beyond that of their unit.
+/// Returns the antennas whose new travel exceeds the travel of their unit.
 fn beyond_the_unit(model: &Model, after: &Station) -> impl Iterator<Item = String> {
     after.antennas.iter().filter_map(|antenna| {
         let model_antenna = model.antenna_of(antenna.id)?;
@@ -114,7 +115,8 @@ fn beyond_the_unit(model: &Model, after: &Station) -> impl Iterator<Item = Strin
     })
 }
 
-/// Sentences for the antennas that saving connects or reconnects. All of them stand.
+/// Returns sentences for the antennas that saving connects or reconnects. None of these antennas
+/// moves.
 fn changed(model: &Model, after: &Station) -> impl Iterator<Item = String> {
     after.antennas.iter().filter_map(|antenna| {
         let name = &antenna.name;
@@ -126,11 +128,11 @@ fn changed(model: &Model, after: &Station) -> impl Iterator<Item = String> {
     })
 }
 
-/// Reason why `after` has to wait: it would interrupt a motion by changing or removing an
-/// antenna, move the site under a track, or take away a keep-out while an antenna moves. A change
-/// of bounds that only tightens never waits.
+/// Returns the reason why `after` has to wait. It would interrupt a motion by changing or removing
+/// an antenna, move the site during a track, or remove a keep-out while an antenna moves. A change
+/// that only tightens bounds never waits.
 fn busy(model: &Model, before: &Station, after: &Station) -> Option<String> {
-    // The simulators of the demonstration end with it.
+    // The simulators of the demonstration end with the demonstration.
     let mut antennas =
         model.antennas.iter().filter(|model_antenna| !model.demo && model_antenna.is_busy());
     let loosened = before.loosened_in(after);
@@ -149,7 +151,7 @@ fn busy(model: &Model, before: &Station, after: &Station) -> Option<String> {
     })
 }
 
-/// Warning for an antenna that is inside a keep-out of `after`, but was not in `before`.
+/// Returns a warning for an antenna that is inside a keep-out of `after`, but was not in `before`.
 fn barrier_problem(model: &Model, before: &Station, after: &Station) -> Option<String> {
     let holds_in = |station: &Station, antenna: &AntennaModel| {
         let direction = antenna.snapshot.state.measured?.direction()?;
@@ -161,7 +163,7 @@ fn barrier_problem(model: &Model, before: &Station, after: &Station) -> Option<S
             .find(|keep_out| keep_out.zone.clearance(direction) < keep_out.margin() + half_beam);
         found.map(|keep_out| keep_out.name.clone())
     };
-    // Those of the demonstration end with it.
+    // The antennas of the demonstration end with the demonstration.
     model.antennas.iter().filter(|_| !model.demo).find_map(|antenna| {
         let zone = holds_in(after, antenna)?;
         let is_new = holds_in(before, antenna).as_ref() != Some(&zone);

@@ -1,29 +1,28 @@
-//! Layout of a page: its cards in columns, and beside them the effect of the edits.
+//! Layout of a page: its cards in columns, and the effect of the edits next to them.
 
 use egui::{Align, Layout, Rect, ScrollArea, Ui, UiBuilder, vec2};
 
 use super::PADDING;
 use crate::ui::widgets::paint;
 
-/// Gap between two columns. The first part of it belongs to the scroll bar.
+/// Gap between two columns, points. The scroll bar takes the left part of the gap.
 const GAP: f32 = 16.0;
-/// Least width of a column.
+/// Min width of a column, points.
 const MIN_WIDTH: f32 = 500.0;
-/// Greatest width of one of several columns, and of the only one.
+/// Max width of one of several columns, and of a single column, points.
 const MAX_WIDTHS: [f32; 2] = [592.0, 800.0];
-/// A part of a page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Part {
-    /// The card with this index.
+    /// A card, by its index.
     Card(usize),
-    /// Effect of the edits: beside the cards, or as a fold above them.
+    /// The effect of the edits: next to the cards, or as a fold above them.
     Preview { is_fold: bool },
-    /// Values that cannot be used.
+    /// The list of invalid values.
     Findings,
 }
 
-/// Shows a page with cards of so many `rows`; `draw` draws each part. The parts beside the cards do
-/// not scroll with them.
+/// Shows a page of cards with these numbers of `rows`; `draw` draws each part. The parts next to
+/// the cards do not scroll.
 pub(super) fn show(
     ui: &mut Ui,
     page: Rect,
@@ -89,7 +88,7 @@ fn centred(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui)) {
 fn scrolled(ui: &mut Ui, place: Rect, salt: impl egui::AsIdSalt, content: impl FnOnce(&mut Ui)) {
     let builder = UiBuilder::new().id_salt(salt).max_rect(place);
     ui.scope_builder(builder, |ui| {
-        // The ring of a focus and the border of a card reach a little beyond.
+        // A focus ring and the border of a card extend slightly beyond the column.
         ui.set_clip_rect(place.expand2(vec2(4.0, 0.0)).intersect(ui.clip_rect()));
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.add_space(PADDING);
@@ -100,7 +99,8 @@ fn scrolled(ui: &mut Ui, place: Rect, salt: impl egui::AsIdSalt, content: impl F
     });
 }
 
-/// The column of each card: in their order, of about the same height.
+/// Returns the column of each card. The cards keep their order, and the columns have about the same
+/// height.
 fn columns_of(rows: &[usize], columns: usize) -> Vec<usize> {
     let height = |rows: &usize| rows + 2;
     let total: usize = rows.iter().map(height).sum();

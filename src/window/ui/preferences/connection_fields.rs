@@ -1,5 +1,5 @@
-//! Fields of an antenna that depend on its make: the address of the unit and the settings
-//! of the connection. All of them follow from the description of the make.
+//! Fields of an antenna that depend on its make: the address of the unit and the settings of the
+//! connection. The description of the make defines all of them.
 
 use super::fields::{Description, Placed};
 use crate::{
@@ -13,13 +13,13 @@ use crate::{
 
 type ConnectionDescription = Description<Antenna>;
 
-/// Section of the name and the connection.
+/// Title of the section with the name and the connection.
 pub(in crate::ui) const CONNECTION: &str = "Connection";
 
-/// Index of the address among the fields of an antenna, behind its name.
+/// Index of the address among the fields of an antenna, after its name.
 pub(in crate::ui) const ADDRESS: usize = 1;
 
-/// Name, address, and the settings beside them.
+/// Returns the fields of name and address, and the settings without a table.
 pub(super) fn unit(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     let settings = spec.settings.iter().filter(|setting| setting.table.is_none());
     let mut unit = vec![
@@ -33,7 +33,7 @@ pub(super) fn unit(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     unit
 }
 
-/// Settings that have tables of their own.
+/// Returns the settings that have their own tables.
 pub(super) fn tables(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     let placed = |setting: &&'static Setting| Some((setting.table?.title, field(setting)));
     spec.settings.iter().filter_map(placed).collect()
@@ -79,9 +79,9 @@ fn field(setting: &'static Setting) -> ConnectionDescription {
     })
 }
 
-/// Quality of the straight line through the points of one axis.
+/// Describes the quality of the straight line through the points of one axis.
 fn fit(points: &[CountPoint]) -> Option<String> {
-    // Two points are always on the line.
+    // Two points always lie on the line.
     let line = CountLine::from_points(points).ok().filter(|_| points.len() > 2)?;
     let residuals = line.residuals_deg(points);
     let all: Vec<String> =

@@ -1,5 +1,5 @@
-//! Draft of the station: a typing error loses nothing, and nothing is used before all of
-//! it is right.
+//! Draft of the station. A typing error loses nothing, and Azel uses nothing before all fields are
+//! valid.
 
 use std::borrow::Cow;
 
@@ -47,8 +47,8 @@ impl Draft {
         }
     }
 
-    /// Adds an empty antenna of this make. Its id is made of the time, so that it differs from
-    /// that of an antenna removed earlier.
+    /// Adds an empty antenna of this make. Its id comes from the time, so that it differs from the
+    /// id of a removed antenna.
     pub(in crate::ui) fn add_antenna(
         &mut self,
         spec: &'static ControllerSpec,
@@ -57,8 +57,8 @@ impl Draft {
         self.add(spec.antenna(spec.short_name, spec.default_address), now)
     }
 
-    /// Adds an antenna like this one, as far as it can be used. It has another name, and waits
-    /// for an address of its own: two antennas must not drive one unit unnoticed.
+    /// Adds a copy of this antenna, with another name and the default address. Two antennas must
+    /// not drive one unit unnoticed.
     pub(super) fn duplicate(&mut self, index: usize, now: Timestamp) -> Option<AntennaId> {
         let mut antenna = self.antennas.get(index)?.read().0;
         let default_address = antenna.connection.spec().default_address;
@@ -79,12 +79,12 @@ impl Draft {
         id
     }
 
-    /// Index of the antenna with this id.
+    /// Returns the index of the antenna with this id.
     pub(super) fn index(&self, id: AntennaId) -> Option<usize> {
         self.antennas.iter().position(|antenna| antenna.before().id == id)
     }
 
-    /// The name of an antenna as typed, or that of its make while it has none.
+    /// Returns the entered name of an antenna, or the name of its make if the name is empty.
     pub(super) fn antenna_title(&self, id: AntennaId) -> String {
         let Some(antenna) = self.index(id).and_then(|index| self.antennas.get(index)) else {
             return String::new();
@@ -96,7 +96,7 @@ impl Draft {
         name.to_owned()
     }
 
-    /// The section that this page edits; none where choices take effect at once.
+    /// Returns the section that this page edits; `None` if choices take effect immediately.
     pub(super) fn section(&self, page: Page) -> Option<&dyn DraftSection> {
         Some(match page {
             Page::Site => &self.ground,
@@ -121,7 +121,7 @@ impl Draft {
         })
     }
 
-    /// The fields of a page that cannot be used.
+    /// Returns the invalid fields of a page.
     pub(super) fn findings(&self, page: Page) -> Vec<Finding> {
         self.section(page).map(|section| section.findings(self)).unwrap_or_default()
     }
@@ -137,25 +137,25 @@ impl Draft {
         self.antennas.get(index).is_some_and(|antenna| antenna.is_removed)
     }
 
-    /// Removes an antenna, or takes its removal back.
+    /// Marks an antenna for removal, or clears the mark.
     pub(super) fn toggle_removed(&mut self, index: usize) {
         if let Some(antenna) = self.antennas.get_mut(index) {
             antenna.is_removed = !antenna.is_removed;
         }
     }
 
-    /// The antennas that stay, by their indices.
+    /// Returns the antennas that stay, with their indices.
     fn remaining(&self) -> impl Iterator<Item = (usize, &Typed<Antenna>)> {
         self.antennas.iter().enumerate().filter(|(_, antenna)| !antenna.is_removed)
     }
 
-    /// The antennas that stay, with their names as typed.
+    /// Returns the antennas that stay, with their entered names.
     pub(super) fn antenna_titles(&self) -> Vec<(AntennaId, String)> {
         let ids = self.remaining().map(|(_, antenna)| antenna.before().id);
         ids.map(|id| (id, self.antenna_title(id))).collect()
     }
 
-    /// Antennas and satellites that the rules name.
+    /// Returns the antennas and satellites that the rules can name.
     pub(super) fn around_rules(&self) -> RuleContext<'_> {
         RuleContext {
             antennas: self.antenna_titles(),
@@ -164,12 +164,12 @@ impl Draft {
         }
     }
 
-    /// Names of the antennas before anything was typed.
+    /// Returns the names of the antennas before any edit.
     pub(super) fn antenna_names(&self) -> Vec<String> {
         self.remaining().map(|(_, antenna)| antenna.before().name.clone()).collect()
     }
 
-    /// The place as typed, also while the rest is not right yet.
+    /// Returns the entered location, even while other fields are invalid.
     pub(in crate::ui) fn place(&self) -> Option<Site> {
         let (ground, standings) = self.ground.read();
         let mut fields = self.ground.fields.iter().zip(&standings);
@@ -180,12 +180,12 @@ impl Draft {
         if is_wrong { None } else { ground.site() }
     }
 
-    /// Standings of the fields of the site.
+    /// Returns the status of each field of the site.
     pub(in crate::ui) fn ground_standings(&self) -> Vec<Standing> {
         self.ground.read().1
     }
 
-    /// Standings of the fields of an antenna.
+    /// Returns the status of each field of an antenna.
     pub(in crate::ui) fn antenna_standings(&self, index: usize) -> Vec<Standing> {
         let Some(antenna) = self.antennas.get(index) else { return Vec::new() };
         let others = self.remaining().filter(|(other, _)| *other != index);
@@ -194,14 +194,14 @@ impl Draft {
         antenna.standings_among(others.map(|(_, other)| other.name()), &names, reason)
     }
 
-    /// The antenna as it is typed now, if every field is right.
+    /// Returns the antenna as entered, if every field is valid.
     pub(in crate::ui) fn antenna(&self, index: usize) -> Option<Antenna> {
         let standings = self.antenna_standings(index);
         let is_right = standings.iter().all(|standing| standing.problem.is_none());
         Some(self.antennas.get(index).filter(|_| is_right)?.read().0)
     }
 
-    /// The last test of the link of the antenna as it is typed now.
+    /// Returns the last link test of the antenna as entered.
     pub(in crate::ui) fn test<'a>(&self, index: usize, model: &'a Model) -> Option<&'a LinkTest> {
         let antenna = self.antenna(index)?;
         let is_it = |test: &&LinkTest| {
@@ -211,7 +211,7 @@ impl Draft {
         model.link_tests.iter().find(is_it)
     }
 
-    /// The antennas that stay, by their names before anything was typed and as typed.
+    /// Returns the antennas that stay: name before any edit, and entered name.
     pub(super) fn renamed_antennas(&self) -> Vec<(String, String)> {
         let names = |antenna: &Typed<Antenna>| {
             (antenna.before().name.clone(), antenna.name().trim().to_owned())
@@ -219,7 +219,7 @@ impl Draft {
         self.remaining().map(|(_, antenna)| names(antenna)).collect()
     }
 
-    /// The station, if every field is right.
+    /// Returns the station if every field is valid.
     pub(in crate::ui) fn read(&self) -> Option<Station> {
         let mut station = Station::default();
         for section in Page::all(self).into_iter().filter_map(|page| self.section(page)) {
@@ -230,7 +230,7 @@ impl Draft {
 }
 
 impl DraftSection for Typed<Antenna> {
-    /// The removal is one, and so is the addition.
+    /// Counts a removal or an addition as one edit.
     fn edits(&self, _: &Draft) -> usize {
         if self.is_removed {
             return usize::from(!self.is_new);

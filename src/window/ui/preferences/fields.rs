@@ -1,5 +1,5 @@
-//! Fields of a form: label, place of the value and its constraints. The typed text is kept
-//! apart from the value, so that a typing error loses nothing.
+//! Fields of a form: label, access to the value, and constraints. The entered text is separate from
+//! the value, so that a typing error loses nothing.
 
 use std::{borrow::Cow, ops::RangeInclusive};
 
@@ -12,14 +12,14 @@ use crate::{
     ui::{widgets::form::Entry, words},
 };
 
-/// Access to a value in a `T`; `None` if that `T` does not have it.
+/// Access to a value in a `T`; returns `None` if the `T` does not have the value.
 pub(super) type Place<T, V> = fn(&mut T) -> Option<&mut V>;
-/// Result of a check; the error continues the name of the field to a sentence.
+/// Result of a check. The name of the field and the error make a sentence.
 pub(super) type Checked = Result<(), &'static str>;
 /// A field with its section.
 pub(in crate::ui) type Placed<T> = (&'static str, Description<T>);
 
-/// The fields of a section.
+/// Returns the fields of a section.
 pub(super) fn placed<T>(
     section: &'static str,
     fields: impl IntoIterator<Item = Description<T>>,
@@ -31,23 +31,23 @@ type Get<T> = Box<dyn Fn(&mut T) -> Option<Value>>;
 type Put<T> = Box<dyn Fn(&mut T, Value) -> Result<(), String>>;
 type Note<T> = Box<dyn Fn(&T) -> Option<String>>;
 
-/// How a text is edited.
+/// Kind of editor of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::ui) enum TextShape {
     Line,
-    /// One text, wrapped to be seen whole.
+    /// One text, wrapped so that all of it is visible.
     Wrapped,
-    /// Many lines. The hint stands there while they are empty.
+    /// Several lines. The hint shows while the text is empty.
     Lines {
         hint: &'static str,
     },
 }
 
-/// Description of one line of a form.
+/// Description of one field of a form.
 pub(in crate::ui) struct Description<T> {
     pub(in crate::ui) label: Cow<'static, str>,
     pub(super) kind: Kind,
-    /// Unit of measure, shown behind the field.
+    /// Unit of measure, shown after the field.
     pub(super) unit: &'static str,
     pub(super) shape: TextShape,
     get: Get<T>,
@@ -58,7 +58,7 @@ pub(in crate::ui) struct Description<T> {
 }
 
 impl<T> Description<T> {
-    /// A field of any kind. If `put` fails it must leave the value as it was.
+    /// Creates a field of any kind. `put` must leave the value unchanged if it fails.
     pub(super) fn new(
         label: impl Into<Cow<'static, str>>,
         kind: Kind,
@@ -98,7 +98,7 @@ impl<T> Description<T> {
         Self { unit, ..Self::new(label, kind, get, put) }
     }
 
-    /// A text field; blanks around the text are dropped.
+    /// Creates a text field, which removes blanks around the text.
     pub(super) fn text(
         label: impl Into<Cow<'static, str>>,
         check: fn(&str) -> Result<(), Unfit>,
@@ -117,7 +117,7 @@ impl<T> Description<T> {
         Self::new(label, Kind::Text(check), get, put)
     }
 
-    /// A choice among `values`. The codes of `choices` are their indices.
+    /// Creates a choice among `values`. The codes of `choices` are indices into `values`.
     pub(super) fn choice<V: Copy + PartialEq + 'static>(
         label: &'static str,
         choices: &'static [(i64, &'static str)],
@@ -141,7 +141,7 @@ impl<T> Description<T> {
         Self::new(label, Kind::Choice(choices), get, put)
     }
 
-    /// A time of the day.
+    /// Creates a field for a time of day.
     pub(super) fn time(label: &'static str, place: fn(&mut T) -> &mut Time) -> Self
     where
         T: 'static,
@@ -173,7 +173,7 @@ impl<T> Description<T> {
         Self { shape: TextShape::Lines { hint }, ..self }
     }
 
-    /// Hides and ignores the field unless `is_used` holds.
+    /// Hides and ignores the field unless `is_used` returns `true`.
     pub(super) fn when(self, is_used: fn(&T) -> bool) -> Self {
         Self { is_used, ..self }
     }
@@ -188,17 +188,17 @@ impl<T> Description<T> {
         Self { note: Box::new(note), ..self }
     }
 
-    /// Adds a note below the field that always holds.
+    /// Adds a constant note below the field.
     pub(super) fn described(self, words: &'static str) -> Self {
         self.noted(move |_| Some(words.to_owned()))
     }
 
-    /// Text of the value, if `whole` has it.
+    /// Returns the text of the value, if `whole` has the value.
     fn write(&self, whole: &mut T) -> Option<String> {
         (self.get)(whole).map(|value| self.kind.text(&value))
     }
 
-    /// Parses a text into its value.
+    /// Parses a text and stores the value.
     fn read(&self, whole: &mut T, text: &str) -> Result<(), Problem> {
         let value = self.kind.read(text.trim()).map_err(|reason| Problem {
             short: words::unfit_in_short(&reason, self.unit),
@@ -208,7 +208,7 @@ impl<T> Description<T> {
         (self.put)(whole, value).map_err(Problem::new)
     }
 
-    /// The text of the number next to the typed one that the field can hold.
+    /// Returns the text of the valid number nearest to the entered number.
     fn nearest(&self, text: &str) -> Option<String> {
         let typed = number(text.trim())?;
         let value = match self.kind {
@@ -220,29 +220,29 @@ impl<T> Description<T> {
     }
 }
 
-/// A field with its typed text.
+/// A field with its entered text.
 pub(in crate::ui) struct Field<T: 'static> {
-    /// The section of the field and its neighbours, which is a card of the page.
+    /// Section of the field; each section is a card of the page.
     pub(in crate::ui) section: &'static str,
     pub(in crate::ui) description: Description<T>,
     pub(in crate::ui) entry: Entry,
 }
 
 impl<T> Field<T> {
-    /// Empties the field, as if there had been no value.
+    /// Clears the field and its previous value.
     pub(in crate::ui) fn empty(&mut self) {
         self.entry = Entry::saved(String::new());
     }
 }
 
-/// Why the text of a field cannot be used.
+/// Reason why the text of a field is invalid.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::ui) struct Problem {
-    /// Continues the name of the field to a sentence.
+    /// Reason that follows the name of the field in a sentence.
     pub(super) reason: String,
-    /// In a few words, for beside the field.
+    /// Reason in a few words, shown next to the field.
     pub(super) short: String,
-    /// A text that would do.
+    /// A valid text to suggest.
     pub(super) would_do: Option<String>,
 }
 
@@ -253,7 +253,7 @@ impl Problem {
     }
 }
 
-/// Number of edited and of unusable fields.
+/// Numbers of edited and of invalid fields.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Counts {
     pub(super) edited: usize,
@@ -264,27 +264,28 @@ pub(super) struct Counts {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(in crate::ui) struct Standing {
     pub(super) is_used: bool,
-    /// The field of something that the station does not have yet.
+    /// `true` if the station does not have the edited item yet.
     pub(super) is_new: bool,
     pub(in crate::ui) problem: Option<Problem>,
-    /// Result of a test of the value.
+    /// Result of a successful test of the value.
     pub(super) proved: Option<String>,
     /// Note below the field.
     pub(super) note: Option<String>,
 }
 
-/// Draft of a `T`: all its fields.
+/// Draft of a `T` with all its fields.
 pub(in crate::ui) struct Typed<T: 'static> {
     base: T,
-    /// The station does not have it yet.
+    /// `true` if the station does not have the item yet.
     pub(super) is_new: bool,
-    /// Saving removes it from the station; until then it can be taken back.
+    /// `true` if saving removes the item from the station. The operator can undo the removal until
+    /// then.
     pub(super) is_removed: bool,
     pub(in crate::ui) fields: Vec<Field<T>>,
 }
 
 impl<T: Clone> Typed<T> {
-    /// Draft with those of `fields` that `base` has.
+    /// Creates a draft with those `fields` that `base` has.
     pub(super) fn new(base: T, fields: Vec<Placed<T>>) -> Self {
         let mut whole = base.clone();
         let fields = fields
@@ -305,7 +306,7 @@ impl<T: Clone> Typed<T> {
         }
     }
 
-    /// Brings back the values of the first fields, before anything was typed or emptied.
+    /// Resets the first `count` fields to their values before any edit.
     pub(in crate::ui) fn reset(&mut self, count: usize) {
         let mut whole = self.base.clone();
         for field in self.fields.iter_mut().take(count) {
@@ -313,19 +314,19 @@ impl<T: Clone> Typed<T> {
         }
     }
 
-    /// Labels of the fields that are used.
+    /// Returns the labels of the used fields.
     pub(super) fn used_labels(&self) -> Vec<(Cow<'static, str>, Spot)> {
         let standings = self.read().1;
         let used = self.fields.iter().zip(&standings).filter(|(_, standing)| standing.is_used);
         used.map(|(field, _)| (field.description.label.clone(), Spot::Field)).collect()
     }
 
-    /// Number of edited fields.
+    /// Returns the number of edited fields.
     pub(super) fn edited(&self) -> usize {
         self.fields.iter().filter(|field| field.entry.is_edited()).count()
     }
 
-    /// The fields that cannot be used.
+    /// Returns the invalid fields.
     pub(super) fn findings_in(&self, standings: &[Standing]) -> Vec<Finding> {
         let finding = |(field, standing): (&Field<T>, &Standing)| {
             let label = field.description.label.to_string();
@@ -334,19 +335,19 @@ impl<T: Clone> Typed<T> {
         self.fields.iter().zip(standings).filter_map(finding).collect()
     }
 
-    /// The typed value, if every field can be used.
+    /// Returns the entered value if every field is valid.
     pub(in crate::ui) fn valid(&self) -> Option<T> {
         let (whole, standings) = self.read();
         standings.iter().all(|standing| standing.problem.is_none()).then_some(whole)
     }
 
-    /// The text of the first field, where that is a name.
+    /// Returns the text of the first field, which is the name.
     pub(super) fn name(&self) -> &str {
         self.fields.first().map_or("", |field| &field.entry.text)
     }
 
-    /// State of each field. The name must differ from the `others`, or else, `reason`; a name that
-    /// would do is none of the `names`.
+    /// Returns the state of each field. `reason` is the problem of a name that equals one of
+    /// `others`. A suggested name differs from all `names`.
     pub(super) fn standings_among<'a>(
         &self,
         mut others: impl Iterator<Item = &'a str>,
@@ -363,18 +364,18 @@ impl<T: Clone> Typed<T> {
         standings
     }
 
-    /// The sections with the numbers of their fields, in order.
+    /// Returns the sections with the numbers of their fields, in order.
     pub(super) fn sections(&self) -> Vec<(&'static str, usize)> {
         let chunks = self.fields.chunk_by(|a, b| a.section == b.section);
         chunks.filter_map(|chunk| Some((chunk.first()?.section, chunk.len()))).collect()
     }
 
-    /// Value before anything was typed.
+    /// Returns the value before any edit.
     pub(in crate::ui) fn before(&self) -> &T {
         &self.base
     }
 
-    /// The typed value with every usable field, and the state of each field.
+    /// Returns the value with every valid field, and the state of each field.
     pub(in crate::ui) fn read(&self) -> (T, Vec<Standing>) {
         let texts: Vec<&str> = self.fields.iter().map(|field| field.entry.text.as_str()).collect();
         let (whole, mut standings) = self.read_as(&texts);
@@ -386,8 +387,8 @@ impl<T: Clone> Typed<T> {
         (whole, standings)
     }
 
-    /// A text that would do in the field at `index`, with all others as typed: the number next
-    /// to the typed one, or the text before.
+    /// Returns a valid text for the field at `index`, with all other fields as entered. This is the
+    /// number nearest to the entered one, or the previous text.
     fn would_do(&self, index: usize, texts: &[&str]) -> Option<String> {
         let field = self.fields.get(index)?;
         let candidates =
@@ -402,14 +403,14 @@ impl<T: Clone> Typed<T> {
         })
     }
 
-    /// Like [`Self::read`], with these texts in the fields.
+    /// Reads the value like [`Self::read`], with these texts in the fields.
     fn read_as(&self, texts: &[&str]) -> (T, Vec<Standing>) {
         let mut whole = self.base.clone();
         let read = |(field, text): (&Field<T>, &&str)| field.description.read(&mut whole, text);
         let problems: Vec<Option<Problem>> =
             self.fields.iter().zip(texts).map(read).map(Result::err).collect();
         let described = || self.fields.iter().map(|field| &field.description).zip(&problems);
-        // The combined checks say nothing while one of the fields is wrong.
+        // Combined checks run only if every single field is valid.
         let is_whole = described()
             .all(|(description, problem)| problem.is_none() || !(description.is_used)(&whole));
         let standings = described()

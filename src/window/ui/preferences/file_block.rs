@@ -1,4 +1,4 @@
-//! The station file below the list of pages: where it is, and when it was saved.
+//! The station file below the list of pages: its path, and the time of the last save.
 
 use std::path::Path;
 
@@ -18,10 +18,10 @@ use crate::{
 
 const LINE: f32 = 18.0;
 const GAP: f32 = 8.0;
-/// Least width of two buttons side by side.
+/// Min width of two buttons side by side, points.
 const WIDE: f32 = 200.0;
 
-/// Height of the block in a list of this width.
+/// Returns the height of the block in a list of this width, points.
 pub(super) fn height(width: f32) -> f32 {
     let buttons = if width < WIDE { 2.0 } else { 1.0 };
     3.0 * LINE + buttons * (SMALL_HEIGHT + GAP) + 2.0 * GAP

@@ -1,4 +1,4 @@
-//! The card of what cannot be used on a page, with what would do.
+//! The card of the invalid fields of a page, with valid examples.
 
 use egui::{RichText, Ui};
 

@@ -23,27 +23,27 @@ use crate::{
     },
 };
 
-/// Width of a number with its unit.
+/// Width of a number field with its unit, points.
 const NUMBER: f32 = 108.0;
-/// Width of a name or an address beside its state, and in the set-up.
+/// Width of a name or address field: next to its state, and in the set-up, points.
 const WORDS: [f32; 2] = [160.0, 240.0];
-/// Left end of the state, from that of the label.
+/// Distance from the left end of the label to the left end of the state, points.
 const STATE: f32 = 360.0;
-/// Width that a segment of a choice needs besides its word.
+/// Width of a segment in addition to its word, points.
 const SEGMENT: f32 = 20.0;
-/// Height beyond which a long text is scrolled.
+/// Height above which a long text scrolls, points.
 const LINES: f32 = 140.0;
 
-/// Content beside a field. No row moves when it appears or disappears.
+/// Content next to a field. Rows keep their place when it appears or disappears.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum RowAnnotation {
-    /// Its state: unchanged, edited, or why it cannot be used.
+    /// State of the field: unchanged, edited, or invalid with the reason.
     State,
-    /// Why it cannot be used, and nothing while it can.
+    /// Reason why the field is invalid; nothing for a valid field.
     Reason,
 }
 
-/// The field that a search leads to, until it has the focus.
+/// Label of the field that a search result leads to, until the field has the focus.
 #[derive(Default)]
 pub(super) struct FocusTarget(Option<Cow<'static, str>>);
 
@@ -68,7 +68,8 @@ pub(super) fn card(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// Shows a card with the fields of `section`, which has its name; `more` stands below them.
+/// Shows a card titled `section` with the fields of the section; `more` draws the content below
+/// them.
 pub(super) fn section<T: Clone>(
     ui: &mut Ui,
     group: &str,
@@ -83,7 +84,7 @@ pub(super) fn section<T: Clone>(
     });
 }
 
-/// Shows the fields of `section` that are used, with their states beside them.
+/// Shows the used fields of `section`, with their states next to them.
 pub(super) fn rows<T: Clone>(
     ui: &mut Ui,
     group: &str,
@@ -102,8 +103,8 @@ pub(super) fn rows<T: Clone>(
     }
 }
 
-/// Shows the fields that are used, each with the reason beside it why it cannot be; returns what
-/// their input fields respond.
+/// Shows the used fields, with the reason next to each invalid field. Returns the responses of the
+/// input fields.
 pub(in crate::ui) fn fields<T>(
     ui: &mut Ui,
     group: &str,
@@ -114,32 +115,32 @@ pub(in crate::ui) fn fields<T>(
     used.map(|(field, standing)| row(ui, group, field, standing, RowAnnotation::Reason)).collect()
 }
 
-/// A note in the column of the fields.
+/// Shows a note in the column of the fields.
 pub(super) fn note(ui: &mut Ui, words: &str) {
     let colour = theme::tokens(ui).t3;
     parts::note(ui, words, colour);
 }
 
-/// A sentence over the whole width of a card.
+/// Shows a sentence over the whole width of a card.
 pub(super) fn remark(ui: &mut Ui, words: &str) {
     let colour = theme::tokens(ui).t3;
     ui.add(Label::new(RichText::new(words).font(text::small()).color(colour)).wrap());
 }
 
-/// A value that cannot be typed.
+/// Shows a read-only value.
 pub(super) fn read_only_row(ui: &mut Ui, label: &str, words: &str) {
     let t = theme::tokens(ui);
     labelled(ui, label, LABEL, |ui, _| {
         let words = RichText::new(words).font(text::small()).color(t.t3);
         ui.vertical(|ui| {
-            // Align with the label.
+            // The space aligns the value with the label.
             ui.add_space(4.0);
             ui.add(Label::new(words).wrap());
         });
     });
 }
 
-/// A choice that holds at once.
+/// Shows a choice that takes effect immediately.
 pub(super) fn choice<T: Copy + PartialEq>(
     ui: &mut Ui,
     label: &str,
@@ -183,7 +184,7 @@ fn row<T>(
         parts::state(ui, (group, &*label), state_room(ui, place, end), mark, [&words, &name]);
     }
     if let Some(problem) = standing.problem.as_ref().filter(|_| response.has_focus()) {
-        // The cure may be the previous value, which a new station does not have.
+        // The suggested text may be the previous value, which a new station does not have.
         let cure = problem.would_do.as_ref().filter(|_| annotation == RowAnnotation::State);
         why_below(&response, &label, &problem.reason, cure);
     }
@@ -193,7 +194,7 @@ fn row<T>(
     response
 }
 
-/// State of a field, with the words beside it.
+/// Returns the state of a field, and its text next to the field.
 fn state<T>(field: &Field<T>, standing: &Standing) -> (Mark, String) {
     match (&standing.problem, &standing.proved) {
         (None, Some(proved)) => (Mark::Good, proved.clone()),
@@ -204,8 +205,8 @@ fn state<T>(field: &Field<T>, standing: &Standing) -> (Mark, String) {
     }
 }
 
-/// Says below a field that has the focus why it cannot be used. It lies over the rows, so that
-/// none of them moves.
+/// Shows below a focused field why it is invalid. The text floats above the rows, so that no row
+/// moves.
 fn why_below(response: &Response, label: &str, reason: &str, cure: Option<&String>) {
     let cure = cure.map(|text| format!(" Use {text}."));
     let words = format!("{label} {reason}.{}", cure.unwrap_or_default());
@@ -217,15 +218,15 @@ fn why_below(response: &Response, label: &str, reason: &str, cure: Option<&Strin
     });
 }
 
-/// Room for the state in the row at `place`, whose field ends at `end`.
+/// Returns the room for the state in the row at `place`, whose field ends at `end`.
 fn state_room(ui: &Ui, place: Rect, end: f32) -> Rect {
     let right = ui.max_rect().right();
     let left = (place.left() + STATE).max(end + GAP).min(right - 14.0);
     Rect::from_min_max(pos2(left, place.top()), pos2(right, place.top() + ROW))
 }
 
-/// A row whose field `content` shows, with its state beside it: why it cannot be used, or that it
-/// is edited.
+/// Shows a row whose field `content` draws. The state next to it is "edited" or the reason why the
+/// field is invalid.
 pub(super) fn custom_row<R>(
     ui: &mut Ui,
     (group, label): (&str, &str),
@@ -254,7 +255,7 @@ fn edit<T>(
     let t = theme::tokens(ui);
     let (stroke, margin) = border
         .map_or((Stroke::new(1.0, t.edge), (11, 3)), |colour| (Stroke::new(2.0, colour), (10, 2)));
-    // The focus has a ring of its own around the border.
+    // The focus ring surrounds this border.
     let frame = Frame::new()
         .fill(t.field)
         .stroke(stroke)
@@ -292,7 +293,7 @@ fn edit<T>(
     response
 }
 
-/// A text field of many lines, scrolled within one border.
+/// Shows a multi-line text field that scrolls within one border.
 fn lines(
     ui: &mut Ui,
     salt: (&str, &str),
@@ -313,7 +314,7 @@ fn lines(
         .hint_text(hint)
         .desired_rows(3)
         .desired_width(WORDS[1]);
-    // The area of the field scrolls only its text, so that the page has to be scrolled separately.
+    // The scroll area scrolls only the text of the field, so the page has to scroll separately.
     let is_asked_for =
         ui.input(|input| input.has_accesskit_action_request(id, Action::ScrollIntoView));
     let shown = frame.show(ui, |ui| area.id_salt(salt).show(ui, |ui| ui.add(edit)).inner);
@@ -327,7 +328,7 @@ fn lines(
     shown.inner
 }
 
-/// A choice of a few words, side by side.
+/// Shows a choice of a few words, side by side.
 fn words_choice(
     ui: &mut Ui,
     salt: (&str, &str),
@@ -347,7 +348,7 @@ fn words_choice(
     response
 }
 
-/// Segments as wide as their words need.
+/// Shows segments as wide as their words need.
 fn segments<T: Copy + PartialEq>(
     ui: &mut Ui,
     (group, label): (&str, &str),

@@ -1,4 +1,4 @@
-//! The bar above a page: what it is about, and what can be done with an antenna.
+//! The bar above a page: its subject, and the actions for an antenna.
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
@@ -67,7 +67,8 @@ fn page_summary(page: Page, model: &Model, draft: &Draft) -> String {
     description.to_owned()
 }
 
-/// Make and mount of an antenna, and who tracks with it.
+/// Returns make and mount of an antenna, and whether the unit tracks on its own or follows
+/// positions from Azel.
 fn kind(antenna: &Antenna) -> String {
     let mount = match antenna.mount {
         Mount::Xy { .. } => "X/Y mount",
@@ -83,7 +84,7 @@ fn kind(antenna: &Antenna) -> String {
     format!("{}, {mount}{tracks}", antenna.connection.spec().name)
 }
 
-/// Shows the button that adds a rule, and returns its left end.
+/// Shows the button that adds a rule. Returns its left end.
 fn add_rule(ui: &Ui, rect: Rect, draft: &mut Draft, state: &mut PreferencesState) -> f32 {
     let add = Button::normal("Add rule").icon(Icon::Plus);
     let right_centre = pos2(rect.right() - PADDING, rect.center().y);
@@ -96,7 +97,7 @@ fn add_rule(ui: &Ui, rect: Rect, draft: &mut Draft, state: &mut PreferencesState
     place.left()
 }
 
-/// Shows the buttons of an antenna at the right, and returns their left end.
+/// Shows the buttons of an antenna at the right. Returns their left end.
 fn buttons(
     ui: &mut Ui,
     rect: Rect,
@@ -111,7 +112,7 @@ fn buttons(
     let as_typed = draft.antenna(index).filter(|_| !is_removed);
     let test = Button::normal("Test link").locked(as_typed.is_none());
     let duplicate = Button::normal("Duplicate").locked(is_removed);
-    // Both words have the same width: the place stays under the pointer.
+    // Both labels have the same width, so that the button stays under the pointer.
     let remove_width = Button::quiet("Remove antenna").width(ui);
     let word = if is_removed { "Undo: keep it" } else { "Remove antenna" };
     let right = rect.right_center() - vec2(PADDING, 0.0);

@@ -1,5 +1,5 @@
-//! Page of the horizon and the keep-outs: obstructions of the sky, and directions in which
-//! metal must not point.
+//! The page of the horizon and the keep-outs: obstructions of the sky, and directions in which the
+//! antenna must not point.
 
 pub(super) mod draft;
 mod edit;
@@ -33,26 +33,26 @@ use crate::{
     },
 };
 
-/// Width from which the title is as large as that of the other pages.
+/// Width from which the title is as large as the titles of the other pages, points.
 const TITLE_FROM: f32 = 260.0;
-/// Width from which plot and table are side by side.
+/// Width from which plot and table stand side by side, points.
 const BESIDE_FROM: f32 = 1000.0;
 const PANE: f32 = 472.0;
 const BAR: f32 = 56.0;
 const TOOLS: f32 = 40.0;
-/// Width of the tabs.
+/// Width of the tabs, points.
 const TABS: f32 = 130.0;
 const EFFECT: f32 = 72.0;
 const PADDING: f32 = 16.0;
 /// Interval between the points of the Sun's path, seconds.
 const SUN_STEP_S: f64 = 600.0;
 
-/// Item that is selected for editing.
+/// The item selected for editing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Chosen {
     #[default]
     Skyline,
-    /// The keep-out with this index.
+    /// Index of a keep-out.
     Zone(usize),
     /// Avoidance of the Sun.
     Sun,
@@ -68,7 +68,7 @@ enum Tool {
     Rectangle,
 }
 
-/// Tab where there is no room for both.
+/// The visible tab where plot and table do not both fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Tab {
     #[default]
@@ -81,21 +81,21 @@ type SunWay = (Site, i64, Vec<AzEl>);
 /// Selection, drawing and undo history of the page.
 pub(super) struct HorizonState {
     chosen: Chosen,
-    /// Selected corner of the keep-out, or point of the skyline.
+    /// Selected corner of the keep-out or point of the skyline.
     corner: Option<usize>,
     tool: Tool,
     tab: Tab,
     snaps: bool,
     shows_passes: bool,
-    /// Corners of the keep-out being drawn.
+    /// Corners of the keep-out that the operator is drawing.
     drawing: Vec<(f64, f64)>,
-    /// Corner being dragged, and its original position.
+    /// Corner that the operator drags, and its original position.
     drag: Option<(usize, (f64, f64))>,
     antenna: Option<usize>,
     history: History,
     sun: Option<SunWay>,
     recording: Option<Recording>,
-    /// Path of a mask file while it is typed.
+    /// Path of a mask file while the operator enters it.
     import: Option<String>,
     answer: Option<Result<String, String>>,
 }
@@ -140,14 +140,14 @@ impl HorizonState {
         self.drag = start.map(|start| (index, start));
     }
 
-    /// Antenna whose beam and travel are shown: none of the demonstration, since the page is about
-    /// a new station.
+    /// Returns the antenna whose beam and travel the plot shows. `None` in the demonstration, since
+    /// the page then edits a new station.
     fn shown<'a>(&self, model: &'a Model) -> Option<&'a AntennaModel> {
         let place = self.antenna.unwrap_or(model.selected_antenna);
         model.antennas.get(place).filter(|_| !model.demo)
     }
 
-    /// Drops the history, whose steps belong to an old draft.
+    /// Clears the history, because its steps belong to an old draft.
     pub(super) fn forget(&mut self) {
         self.history = History::default();
         self.recording = None;
@@ -161,7 +161,7 @@ impl HorizonState {
         self.answer = Some(result);
     }
 
-    /// Path of the Sun over the site from midnight to midnight UTC.
+    /// Returns the path of the Sun over the site from midnight to midnight UTC.
     fn sun_way(&mut self, site: Site, now: Timestamp) -> &[AzEl] {
         const DAY_S: i64 = 86_400;
         let day = now.as_second().div_euclid(DAY_S);
@@ -313,7 +313,7 @@ fn view_bar(
     }
     let words = bar.with_max_x(right.x).shrink2(vec2(PADDING, 8.0));
     let (above, below) = words.split_top_bottom_at_fraction(0.5);
-    // As the other pages, where it has room.
+    // The title is as large as on other pages where it fits.
     let font = if above.width() < TITLE_FROM { text::value() } else { text::title() };
     paint::text_in(ui, above, Align2::LEFT_CENTER, "Horizon and keep-outs", font, t.t1);
     let subject = state.shown(model).map_or_else(
@@ -396,7 +396,7 @@ fn effect_lines(ui: &Ui, rect: Rect, model: &Model, skies: &Skies, state: &Horiz
     paint::name_text(ui, "effect", rect, &lines.join(" ")).on_hover_text(lines.join("\n"));
 }
 
-/// Asks for the effect of the draft, unless that was the last question.
+/// Asks for the effect of the draft, unless the last question was the same.
 fn ask_for_effect(
     ui: &Ui,
     model: &Model,

@@ -1,4 +1,4 @@
-//! The list of the pages, with their edits, and in its place the results of a search.
+//! The list of the pages with their numbers of edits. Search results replace the list.
 
 use egui::{
     Align2, Color32, Frame, Key, Margin, Modifiers, Rect, Role, ScrollArea, Sense, Stroke,
@@ -39,7 +39,7 @@ const ANTENNA: f32 = 30.0;
 const RESULT: f32 = 42.0;
 const FIELD: f32 = 32.0;
 
-/// Shows the list and changes the page that is shown.
+/// Shows the list and changes the current page.
 pub(super) fn show(
     ui: &mut Ui,
     places: &Places,
@@ -56,7 +56,8 @@ pub(super) fn show(
     ui.painter().hline(title.x_range(), title.bottom() - 0.5, (1.0, t.line));
     let words = title.shrink2(vec2(PADDING, 0.0));
     if model.demo {
-        // All pages are about one station, which is not that of the other views.
+        // In the demonstration, all pages edit the new station. The other views show the demo
+        // station.
         let (above, below) = words.shrink2(vec2(0.0, 4.0)).split_top_bottom_at_fraction(0.5);
         paint::text_in(ui, above, Align2::LEFT_CENTER, "Preferences", text::value(), t.t1);
         let name = "of your new station";
@@ -85,7 +86,7 @@ pub(super) fn show(
     });
 }
 
-/// Shows the field of the search. Returns `true` while keys are meant for it.
+/// Shows the search field. Returns `true` while the field takes the keys.
 fn search_field(ui: &mut Ui, rect: Rect, search: &mut Search) -> bool {
     let t = theme::tokens(ui);
     let frame = Frame::new()
@@ -113,7 +114,7 @@ fn search_field(ui: &mut Ui, rect: Rect, search: &mut Search) -> bool {
     if response.changed() {
         search.chosen = 0;
     }
-    // Enter ends the typing in the same frame.
+    // Enter ends the input in the same frame.
     let takes_keys = response.has_focus() || response.lost_focus();
     if search.text.is_empty() {
         return takes_keys;
@@ -213,7 +214,8 @@ fn no_antenna(ui: &mut Ui) {
     paint::name_text(ui, "no antenna", room, words);
 }
 
-/// The heading of the antennas, with the button that adds one; returns the page of the new one.
+/// Shows the heading of the antennas with the button that adds one. Returns the page of a new
+/// antenna.
 fn antennas_head(ui: &mut Ui, draft: &mut Draft, now: Timestamp) -> Option<Page> {
     let t = theme::tokens(ui);
     let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
@@ -272,7 +274,7 @@ fn page_row(
     response.clicked()
 }
 
-/// A row that can be chosen, with its ground.
+/// Draws a selectable row with its background.
 fn line(
     ui: &Ui,
     salt: impl egui::AsIdSalt,
@@ -288,7 +290,8 @@ fn line(
     response
 }
 
-/// The numbers of edits and of unusable fields at the right end of a row; returns their left end.
+/// Draws the numbers of edited and invalid fields at the right end of a row. Returns their left
+/// end.
 fn tags(ui: &Ui, room: Rect, title: &str, counts: Counts) -> f32 {
     let t = theme::tokens(ui);
     let mut right = room.right();

@@ -1,5 +1,4 @@
-//! The page of what is told through the desktop: notifications, sounds, quiet hours and
-//! reminders.
+//! The page of notices through the desktop: notifications, sounds, quiet hours and reminders.
 
 use std::{borrow::Cow, collections::BTreeSet};
 
@@ -29,11 +28,11 @@ use crate::{
     },
 };
 
-/// Sections of the page, each of which is a card.
+/// Titles of the cards of the page.
 const TELLING: &str = "Notifications and sounds";
 const REMINDING: &str = "Reminders";
 
-/// Choices of tones.
+/// Labels of the choices of tones.
 const TONES: [&str; 3] = [WARNINGS, CAUTIONS, BEFORE_PASSES];
 const WARNINGS: &str = "Warnings";
 const CAUTIONS: &str = "Cautions";
@@ -46,7 +45,7 @@ pub(super) struct NoticesDraft {
     reminders: BTreeSet<u32>,
 }
 
-/// The notices, with hours that wait while none are quiet.
+/// The notices. They keep their quiet hours while the operator has switched these off.
 #[derive(Debug, Clone, PartialEq)]
 struct Telling {
     notices: Notices,
@@ -66,7 +65,7 @@ impl NoticesDraft {
 }
 
 impl DraftSection for NoticesDraft {
-    /// Each mark for a reminder is one.
+    /// Counts each reminder mark as one edit.
     fn edits(&self, before: &Draft) -> usize {
         let marked = self.reminders.symmetric_difference(&before.notices.reminders);
         self.telling.edited() + marked.count()
@@ -264,7 +263,7 @@ fn name(model: &Model, number: u32) -> String {
     }
 }
 
-/// The next AOS of a favourite.
+/// Returns the next AOS of a favourite.
 fn next_aos(model: &Model, number: u32) -> String {
     let passes = model.pass_lists.favourites.upcoming(model.now);
     let mut of_this = passes.iter().filter(|predicted| predicted.number() == number).peekable();

@@ -6,7 +6,7 @@ use crate::station::AntennaId;
 /// A page of the preferences.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Page {
-    /// The place of the station, its passes, and what happens when the window closes.
+    /// Location of the station, its passes, and the behaviour when the window closes.
     #[default]
     Site,
     /// Obstructions of the sky, and zones that antennas must not point at.
@@ -23,7 +23,7 @@ pub(super) enum Page {
 }
 
 impl Page {
-    /// All pages of a station with the antennas of `draft`.
+    /// Returns all pages of a station with the antennas of `draft`.
     pub(super) fn all(draft: &Draft) -> Vec<Self> {
         let antennas = draft.antennas.iter().map(|antenna| Self::Antenna(antenna.before().id));
         let mut all = vec![Self::Site, Self::Horizon];
@@ -32,12 +32,12 @@ impl Page {
         all
     }
 
-    /// Returns `true` if choices on the page take effect at once, without saving.
+    /// Returns `true` if choices on the page take effect immediately, without saving.
     pub(super) fn is_used_at_once(self) -> bool {
         self == Self::Appearance
     }
 
-    /// The page after this one, and the first after the last.
+    /// Returns the page after this one; the first page follows the last.
     pub(super) fn next(self, draft: &Draft) -> Self {
         let all = Self::all(draft);
         let index = all.iter().position(|page| *page == self);
@@ -58,8 +58,8 @@ impl Page {
         title.to_owned()
     }
 
-    /// Edits of the page that are not saved, and its fields that cannot be used. `before` is the
-    /// draft of the station as saved.
+    /// Returns the number of unsaved edits and of invalid fields of the page. `before` is the draft
+    /// of the saved station.
     pub(super) fn counts(self, draft: &Draft, before: &Draft) -> Counts {
         draft.section(self).map_or_else(Counts::default, |section| Counts {
             edited: section.edits(before),

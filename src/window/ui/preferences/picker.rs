@@ -1,4 +1,4 @@
-//! A choice of a satellite: among the favourites, or by number or name from the catalog.
+//! A choice of a satellite from the favourites, or by number or name from the catalog.
 
 use egui::{Key, Role, TextEdit, Ui, WidgetInfo, vec2};
 
@@ -13,12 +13,12 @@ use crate::{
     },
 };
 
-/// Number of objects that are offered.
+/// Max number of offered objects.
 const OFFERED: usize = 6;
 const FIELD: f32 = 160.0;
 
-/// Shows a field for a number or a name, what was found by it, and a list of `favourites`; returns
-/// the satellite that was chosen. Those that are `excluded` are not offered.
+/// Shows a field for a number or a name, the search results, and a list of `favourites`. Returns
+/// the chosen satellite. The picker does not offer `excluded` satellites.
 pub(super) fn show(
     ui: &mut Ui,
     model: &Model,
@@ -60,7 +60,7 @@ pub(super) fn show(
     chosen
 }
 
-/// Shows the field; returns whether Enter was pressed in it.
+/// Shows the field. Returns `true` if the operator pressed Enter in it.
 fn field(ui: &mut Ui, search: &mut ObjectSearch) -> bool {
     let edit = TextEdit::singleline(&mut search.typed)
         .id_salt("search of a satellite")

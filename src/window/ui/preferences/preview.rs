@@ -1,4 +1,4 @@
-//! Effect of the edits of a page, before they are saved.
+//! Effect of the unsaved edits of a page.
 
 use egui::{Align2, Color32, FontId, Rect, Sense, Ui, pos2, vec2};
 
@@ -14,10 +14,11 @@ use crate::ui::{
 
 const TITLE: &str = "What this changes";
 const ROW: f32 = 22.0;
-/// Width of each of the two columns of numbers.
+/// Width of each of the two columns of numbers, points.
 const NUMBER: f32 = 72.0;
 
-/// Shows `content`, which is of a page that `is_edited`, in a card, or below a fold that says `value` while it is closed.
+/// Shows `content` in a card, or below a fold that shows `value` while it is closed. `is_edited`
+/// marks the card as not saved.
 pub(super) fn card(
     ui: &mut Ui,
     fold: Option<&mut bool>,
@@ -43,7 +44,7 @@ pub(super) fn card(
     }
 }
 
-/// Says at the right of the title that nothing is saved yet.
+/// Marks at the right of the title that nothing is saved yet.
 fn live(ui: &Ui) {
     let t = theme::tokens(ui);
     let max = ui.max_rect();
@@ -51,7 +52,7 @@ fn live(ui: &Ui) {
     paint::text_in(ui, title, Align2::RIGHT_CENTER, "live, not saved", text::small(), t.sat);
 }
 
-/// The heads of the two columns of numbers.
+/// Draws the heads of the two columns of numbers.
 pub(super) fn heads(ui: &mut Ui) {
     let t = theme::tokens(ui);
     let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
@@ -59,7 +60,7 @@ pub(super) fn heads(ui: &mut Ui) {
     numbers(ui, row, heads, [text::small(), text::small()]);
 }
 
-/// A row with a number as saved and as edited.
+/// Shows a row with the saved and the edited value.
 pub(super) fn cells(ui: &mut Ui, label: &str, was: (String, Color32), new: (String, Color32)) {
     let t = theme::tokens(ui);
     let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
@@ -71,7 +72,7 @@ pub(super) fn cells(ui: &mut Ui, label: &str, was: (String, Color32), new: (Stri
     paint::name_text(ui, ("changed", label), row, &spoken);
 }
 
-/// Numbers in the columns of `row`, from its right end on.
+/// Draws numbers in the columns of `row`, starting at its right end.
 fn numbers(ui: &Ui, row: Rect, numbers: [(String, Color32); 2], fonts: [FontId; 2]) {
     let mut right = row.right();
     for ((words, colour), font) in numbers.into_iter().zip(fonts) {

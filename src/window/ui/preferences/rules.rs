@@ -1,4 +1,4 @@
-//! The page of the automation rules: a table in their order, and the chosen one as a form.
+//! The page of the automation rules: a table in their order, and the form of the chosen rule.
 
 pub(super) mod cannot_act;
 mod decided;
@@ -25,21 +25,21 @@ use cannot_act::{CannotAct, RuleContext};
 use decided::{Decided, DecidedPass};
 use draft::RulesDraft;
 
-/// Settings of the page that are no fields of the station.
+/// Settings of the page that are not fields of the station.
 const LABELS: [&str; 3] =
     ["Order of the rules", "Rules by satellite or group", "Rules by Sun and hours"];
-/// Most of the page that the table takes.
+/// Max share of the page height that the table takes.
 const TABLE_SHARE: f32 = 0.45;
-/// Rows of the cards, for the columns.
+/// Number of rows of each card, for the layout in columns.
 const CARDS: [usize; 2] = [10, 8];
 
-/// The rule that is chosen, and what is looked for.
+/// The chosen rule, and the search text.
 #[derive(Default)]
 pub(super) struct RulesState {
     chosen: usize,
-    /// The row that gets the keyboard focus.
+    /// Index of the row that gets the keyboard focus.
     wants_focus: Option<usize>,
-    /// The rule that follows the pointer.
+    /// Index of the rule that the operator drags.
     dragged: Option<usize>,
     search: ObjectSearch,
     decided: Option<Decided>,
@@ -51,7 +51,8 @@ impl RulesState {
         self.wants_focus = Some(index);
     }
 
-    /// Works out the passes that the rules of `station` decide, unless they are known.
+    /// Computes the passes that the rules of `station` decide, unless the last result is still
+    /// valid.
     fn work_out(&mut self, station: Option<Station>, model: &Model) {
         self.decided = station.map(|station| {
             let previous = self.decided.take().filter(|decided| decided.is_of(&station, model));
@@ -60,14 +61,14 @@ impl RulesState {
     }
 }
 
-/// A rule of the draft with what is said of it.
+/// A rule of the draft with its texts.
 struct Shown {
     index: usize,
-    /// `None` where it is removed.
+    /// Number of the rule; `None` if the operator has removed it.
     number: Option<usize>,
     is_on: bool,
     sentence: String,
-    /// Why it cannot act; of a rule that is off, why it could not be saved.
+    /// Reason why the rule cannot act; for a disabled rule, the reason why Azel could not save it.
     hindrance: Option<(CannotAct, String)>,
 }
 
@@ -91,7 +92,7 @@ impl Shown {
         })
     }
 
-    /// The passes that it decides; `None` while not all that is typed can be used.
+    /// Returns the passes that the rule decides; `None` while an entered value is invalid.
     fn decided<'a>(&self, state: &'a RulesState) -> Option<&'a [DecidedPass]> {
         Some(state.decided.as_ref()?.rule(self.number? - 1))
     }
@@ -106,7 +107,7 @@ pub(super) fn show(
 ) {
     state.rules.work_out(draft.read(), model);
     let (antennas, favourites) = (draft.antenna_titles(), draft.satellites.favourites());
-    // Borrowed apart from the rules, which change.
+    // The context borrows these fields apart from the rules, which change.
     let Draft { satellites, rules, .. } = draft;
     let context = RuleContext { antennas, favourites, satellites };
     let requested = table::height(rules.all().len());

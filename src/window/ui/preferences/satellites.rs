@@ -1,4 +1,4 @@
-//! The page of the satellites: priorities and limits of the favourites, groups, frequencies.
+//! The page of the satellites: priorities and limits of the favourites, groups and frequencies.
 
 pub(super) mod draft;
 mod favourites;
@@ -18,21 +18,21 @@ use crate::{model::Model, station::AntennaId, ui::object_search::ObjectSearch};
 /// Open parts of the page.
 #[derive(Default)]
 pub(super) struct SatellitesState {
-    /// The favourite whose limits are open.
+    /// Catalog number of the favourite whose limits are open.
     favourite: Option<u32>,
-    /// The group that is open.
+    /// Index of the open group.
     group: Option<usize>,
     search: ObjectSearch,
 }
 
-/// Data that the cards of the page show besides the draft.
+/// Data that the cards of the page show in addition to the draft.
 struct GroupContext<'a> {
     model: &'a Model,
     favourites: Vec<u32>,
     antennas: Vec<(AntennaId, String)>,
 }
 
-/// Settings of the page that are no fields.
+/// Settings of the page that have no field.
 const LABELS: [&str; 3] = [favourites::TITLE, "Limits of passes", groups::TITLE];
 
 pub(super) fn show(

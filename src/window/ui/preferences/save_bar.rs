@@ -1,5 +1,4 @@
-//! The bar below the pages, one for all of them: what has to be true before saving, the changes, and
-//! the buttons.
+//! The bar below all pages: the conditions for saving, the changes and the buttons.
 
 use egui::{Align2, Color32, Key, Modifiers, Rect, Ui, pos2, vec2};
 
@@ -23,20 +22,20 @@ use crate::{
 
 const ENDS_THE_DEMO: &str = "Saving ends the demo and uses this station.";
 const SAVE_IN_DEMO: &str = "Save and end the demo";
-/// Height of a line.
+/// Height of a line, points.
 const LINE: f32 = 20.0;
-/// Number of lines of checks that are shown.
+/// Max number of checks shown, one per line.
 const LINES: usize = 3;
-/// Least width of the outcome.
+/// Min width of the outcome, points.
 const MIN_WIDTH: f32 = 110.0;
-/// Width of the button that the operator must hold.
+/// Width of the button that the operator must hold, points.
 const HOLD: f32 = 150.0;
 
 pub(super) fn height(is_small: bool) -> f32 {
     if is_small { 48.0 } else { 84.0 }
 }
 
-/// Shows the bar. Returns `true` when the edits are to be dropped.
+/// Shows the bar. Returns `true` when the operator discards the edits.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -52,7 +51,8 @@ pub(super) fn show(
     let read = draft.read();
     let is_edited = draft != before;
     let checks = Checks::new(model, station, read.as_ref(), (draft, before));
-    // The demo station can be replaced as it is proposed, where the page is about the station.
+    // The operator can replace the demo station with the proposed settings, if the page edits the
+    // station.
     let replaces_demo = model.demo && !state.page.is_used_at_once();
     let lock = replay::lock(model);
     let is_free = checks.busy.is_none() && lock.is_none();
@@ -88,8 +88,8 @@ pub(super) fn show(
     is_reverted
 }
 
-/// Shows the checks at the left of `room` and the outcome at its right; in a low bar the gravest
-/// check alone, or else the outcome.
+/// Shows the checks at the left of `room` and the outcome at its right. A low bar shows only the
+/// most severe check, or else the outcome.
 fn lines(
     ui: &Ui,
     room: Rect,
@@ -99,7 +99,7 @@ fn lines(
 ) {
     let t = theme::tokens(ui);
     if room.height() < LINE * (LINES + 1) as f32 {
-        // A check that is met is no reason to hide what saving does.
+        // A passed check does not hide the effect of saving.
         let first = checks.lines.first();
         let gravest = first.filter(|(tone, _)| *tone != Tone::Good);
         let (tone, words) = gravest.map_or((Tone::Plain, &spoken), |(tone, words)| (*tone, words));
@@ -152,7 +152,7 @@ fn lines(
     }
 }
 
-/// Top of so many lines below their head, in the middle of `room`.
+/// Returns the top of `lines` lines below their head, centred in `room`.
 fn first_line(room: Rect, lines: usize) -> f32 {
     room.center().y - LINE * (lines + 1) as f32 / 2.0
 }
@@ -166,7 +166,7 @@ fn look(tone: Tone, t: &Tokens) -> (Option<Icon>, Color32) {
     }
 }
 
-/// The changes, or what came of the last saving.
+/// Returns the changes, or the result of the last save.
 fn outcome(
     ui: &Ui,
     model: &Model,
@@ -189,7 +189,7 @@ fn outcome(
     }
 }
 
-/// The number of the changes, and that of the pages with any.
+/// Returns the number of changes and the number of pages with changes.
 fn changes(draft: &Draft, before: &Draft) -> String {
     let pages = Page::all(draft).into_iter();
     let counts: Vec<usize> =

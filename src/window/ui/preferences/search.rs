@@ -4,35 +4,35 @@ use std::borrow::Cow;
 
 use super::{appearance, draft::Draft, horizon::Chosen, page::Page, section::DraftSection};
 
-/// Most results that are listed.
+/// Max number of listed results.
 const MAX_RESULTS: usize = 12;
 
-/// Text of the search, until a result is chosen.
+/// Search text, until the operator chooses a result.
 #[derive(Default)]
 pub(super) struct Search {
     pub(super) text: String,
-    /// The result that Enter chooses.
+    /// Index of the result that Enter chooses.
     pub(super) chosen: usize,
     pub(super) wants_focus: bool,
 }
 
-/// A place that a search leads to.
+/// The target of a search result.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Spot {
     /// The field with the label of the result.
     Field,
-    /// An item of the page of the horizon.
+    /// An item of the horizon page.
     Horizon(Chosen),
-    /// The page as it is.
+    /// The page without a particular field.
     Page,
 }
 
-/// Labels of settings that are no fields, which lead to their page.
+/// Returns labels of settings without fields; they lead to their page.
 pub(super) fn on_page(labels: &[&'static str]) -> Vec<(Cow<'static, str>, Spot)> {
     labels.iter().map(|label| (Cow::Borrowed(*label), Spot::Page)).collect()
 }
 
-/// A setting that was found.
+/// A setting found by the search.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Found {
     pub(super) page: Page,
@@ -40,7 +40,8 @@ pub(super) struct Found {
     pub(super) spot: Spot,
 }
 
-/// The settings whose label, or page, has every word of `text`; those by their label first.
+/// Returns the settings whose label or page title contains every word of `text`. Matches in the
+/// label come first.
 pub(super) fn find(text: &str, draft: &Draft) -> Vec<Found> {
     let words: Vec<String> = text.split_whitespace().map(str::to_lowercase).collect();
     if words.is_empty() {
@@ -59,7 +60,7 @@ pub(super) fn find(text: &str, draft: &Draft) -> Vec<Found> {
     by_label
 }
 
-/// All settings, in the order of the pages.
+/// Returns all settings in the order of the pages.
 fn all(draft: &Draft) -> Vec<Found> {
     let of_page = |page: Page| {
         let labels = draft.section(page).map_or_else(appearance::labels, DraftSection::labels);

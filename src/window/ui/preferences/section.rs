@@ -1,30 +1,30 @@
-//! Sections of the draft of a station, of which each page edits one.
+//! Sections of the draft of a station. Each page edits one section.
 
 use std::borrow::Cow;
 
 use super::{draft::Draft, fields::Problem, search::Spot};
 use crate::station::Station;
 
-/// A part of the draft that a page edits.
+/// A section of the draft that a page edits.
 pub(super) trait DraftSection {
-    /// Number of edits that are not saved; `before` is the draft of the station as saved.
+    /// Returns the number of unsaved edits; `before` is the draft of the saved station.
     fn edits(&self, before: &Draft) -> usize;
 
-    /// The fields that cannot be used. `draft` holds this section.
+    /// Returns the invalid fields. `draft` contains this section.
     fn findings(&self, draft: &Draft) -> Vec<Finding>;
 
-    /// Labels that a search finds, and where each leads to.
+    /// Returns the labels that a search finds, and the place that each leads to.
     fn labels(&self) -> Vec<(Cow<'static, str>, Spot)>;
 
     /// Types `text` into the field with this label.
     fn write(&mut self, _label: &str, _text: String) {}
 
-    /// Puts the section into `station`, which has those of the pages before, if all of it is right.
-    /// `draft` holds this section.
+    /// Writes the section into `station`, which already has the previous pages, if all fields are
+    /// valid. `draft` contains this section.
     fn put_into(&self, draft: &Draft, station: &mut Station) -> Option<()>;
 }
 
-/// A field that cannot be used, and why.
+/// An invalid field and the reason.
 pub(super) struct Finding {
     pub(super) label: String,
     pub(super) problem: Problem,

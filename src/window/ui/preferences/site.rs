@@ -1,4 +1,4 @@
-//! The page of the site: fields of the station itself.
+//! The page of the site: the fields of the station itself.
 
 use std::{cmp::Ordering, sync::Arc};
 
@@ -40,7 +40,7 @@ pub(super) fn show(
 ) {
     let page = Page::Site;
     let sections = draft.ground.sections();
-    // The record has three lines more.
+    // The card of the record has three more lines.
     let rows_of = |(section, rows): &(&str, usize)| {
         if *section == RECORD && !model.demo { rows + 3 } else { *rows }
     };
@@ -88,7 +88,8 @@ pub(super) fn show(
     }
 }
 
-/// Asks for the passes over the site as saved and as typed, once there are favourites to look at.
+/// Returns the question for the passes over the saved and the entered site, once the favourites are
+/// loaded.
 fn question(model: &Model, draft: &Draft, before: &Draft) -> Option<Question> {
     let favourites = &model.pass_lists.favourites;
     let station = |draft: &Draft| {
@@ -103,7 +104,7 @@ fn question(model: &Model, draft: &Draft, before: &Draft) -> Option<Question> {
     })
 }
 
-/// The passes of the favourites over the site as saved and as edited.
+/// Shows the passes of the favourites over the saved and the edited site.
 fn passes(ui: &mut Ui, question: &Question, model: &Model) {
     let t = theme::tokens(ui);
     ui.label(RichText::new("Favourites, next 48 h").font(text::body_medium()).color(t.t1));
@@ -142,7 +143,7 @@ fn passes(ui: &mut Ui, question: &Question, model: &Model) {
     }
 }
 
-/// Where the record lies, how large it is, and whether it is written.
+/// Shows the path and size of the record, and whether Azel writes it.
 fn about_record(ui: &mut Ui, model: &Model) {
     let Some(record) = &model.record else {
         let is_open_elsewhere =
@@ -172,7 +173,8 @@ fn sun_in_short(site: Site, model: &Model) -> String {
     format!("Sun at {}", format::pointing_at(sun))
 }
 
-/// The Sun at the site, and how far it is from where each unit believes to stand.
+/// Shows the Sun at the site, and the distance between the site and the position that each unit
+/// reports.
 fn description(ui: &mut Ui, site: Option<Site>, model: &Model) {
     let Some(site) = site else {
         status_line::line(ui, Tone::Plain, "Latitude and longitude do not give a location yet.");
@@ -181,7 +183,7 @@ fn description(ui: &mut Ui, site: Option<Site>, model: &Model) {
     let place_text = words::place(site.latitude().degrees(), site.longitude().degrees());
     status_line::line(ui, Tone::Plain, &place_text);
     status_line::line(ui, Tone::Now, &words::sun_there(sun_moon::sun(site, model.now)));
-    // The antennas of the demonstration do not stand at the new station.
+    // The antennas of the demonstration are not at the new station.
     for antenna in model.antennas.iter().filter(|_| !model.demo) {
         let (tone, words) = distance(site, antenna, model.appearance.distances);
         status_line::line(ui, tone, &words);

@@ -14,11 +14,11 @@ use crate::{
     station::{OnClose, Station, ranges},
 };
 
-/// Labels of the place.
+/// Labels of the location fields.
 pub(in crate::ui) const LATITUDE: &str = "Latitude";
 pub(in crate::ui) const LONGITUDE: &str = "Longitude, east";
 
-/// Sections of the fields, each of which is a card.
+/// Titles of the cards of the page.
 const SITE: &str = "Site";
 const REFRACTION: &str = "Refraction";
 const PASSES: &str = "Passes";
@@ -32,7 +32,7 @@ pub(in crate::ui) struct Ground {
     longitude_deg: f64,
     altitude_m: f64,
     refraction: Refraction,
-    /// With the settings that no page edits.
+    /// The station, including the settings that no page edits.
     station: Station,
 }
 
@@ -53,7 +53,7 @@ impl Ground {
         place.with_refraction(self.refraction).ok()
     }
 
-    /// The station, with the contents of the other pages as saved and without antennas.
+    /// Returns the station, with the saved contents of the other pages and without antennas.
     pub(in crate::ui) fn station(self) -> Option<Station> {
         Some(Station { site: self.site()?, antennas: Vec::new(), ..self.station })
     }
@@ -68,7 +68,7 @@ impl DraftSection for Typed<Ground> {
         self.findings_in(&self.read().1)
     }
 
-    /// Also fields that another choice would use.
+    /// Returns the labels of all fields, including those that only another choice uses.
     fn labels(&self) -> Vec<(Cow<'static, str>, Spot)> {
         self.fields.iter().map(|field| (field.description.label.clone(), Spot::Field)).collect()
     }
@@ -83,14 +83,14 @@ impl DraftSection for Typed<Ground> {
     }
 }
 
-/// Rounds to a centimetre, without the noise of the conversion.
+/// Rounds to a centimetre to remove conversion noise.
 fn rounded(degrees: f64) -> f64 {
     (degrees * 1e7).round() / 1e7
 }
 
 type GroundDescription = Description<Ground>;
 
-/// All fields of a station besides its antennas.
+/// Returns all fields of a station except its antennas.
 pub(super) fn all() -> Vec<Placed<Ground>> {
     let mut all = placed(SITE, site());
     all.extend(placed(REFRACTION, refraction()));

@@ -12,16 +12,16 @@ use crate::{
     ui::{format, text, theme, time_axis::TimeAxis, widgets::paint},
 };
 
-/// Dash and gap of the part of the path ahead.
+/// Dash and gap of the future part of the path, points.
 const DASH: (f32, f32) = (6.0, 4.5);
-/// Dash and gap of the azimuth.
+/// Dash and gap of the azimuth curve, points.
 pub(super) const DOTS: (f32, f32) = (1.5, 3.5);
-/// Distance from the centre of the diamond to its corners.
+/// Distance from the centre of the diamond to its corners, points.
 const DIAMOND: f32 = 6.5;
-/// Gap between a plot and the numbers of its scales.
+/// Gap between a plot and the numbers of its scales, points.
 const SCALE_GAP: f32 = 6.0;
 
-/// Shows the plot in `rect`; the numbers of the scales stand beside it.
+/// Shows the plot in `rect`, with the numbers of the scales at its sides.
 pub(super) fn show(ui: &Ui, rect: Rect, axis: &TimeAxis, model: &ProfileModel<'_>) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg0);
@@ -43,8 +43,8 @@ pub(super) fn show(ui: &Ui, rect: Rect, axis: &TimeAxis, model: &ProfileModel<'_
     let elevations = model.track.iter().map(|s| (axis.x(s.time), s.direction.elevation_deg()));
     let stroke = Stroke::new(2.0, t.sat);
     let now_x = axis.x(model.now).clamp(rect.left(), rect.right());
-    // The whole path is dashed and then cut at the present, so that the dashes
-    // stay where they are while time goes on.
+    // The code dashes the whole path and then cuts it at the present, so that the dashes keep their
+    // place as time goes on.
     let flown = painter.with_clip_rect(painter.clip_rect().intersect(rect.with_max_x(now_x)));
     let planned = painter.with_clip_rect(painter.clip_rect().intersect(rect.with_min_x(now_x)));
     for piece in scale::pieces(elevations, rect, ELEVATION_TOP_DEG) {
@@ -54,7 +54,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, axis: &TimeAxis, model: &ProfileModel<'_
     highest(ui, rect, axis, model);
 }
 
-/// The height of the mask along the path.
+/// Returns the height of the mask along the path.
 fn skyline(rect: Rect, axis: &TimeAxis, track: &[Sample], mask: &HorizonMask) -> Vec<Pos2> {
     let finite = track.iter().filter(|sample| sample.direction.azimuth.is_finite());
     let height = |sample: &Sample| {
@@ -64,7 +64,7 @@ fn skyline(rect: Rect, axis: &TimeAxis, track: &[Sample], mask: &HorizonMask) ->
     finite.map(height).collect()
 }
 
-/// The filled area from the bottom of the plot to the skyline.
+/// Returns the filled area from the bottom of the plot to the skyline.
 fn ground(rect: Rect, skyline: &[Pos2], colour: Color32) -> Mesh {
     let mut mesh = Mesh::default();
     for (index, position) in (0_u32..).zip(skyline) {
@@ -94,7 +94,7 @@ fn grid(ui: &Ui, rect: Rect) {
     }
 }
 
-/// Paints the diamond at TCA with the elevation beside it.
+/// Paints the diamond at TCA with the elevation next to it.
 fn highest(ui: &Ui, rect: Rect, axis: &TimeAxis, model: &ProfileModel<'_>) {
     let elevation_deg = model.tca.direction.elevation_deg();
     if !axis.contains(model.tca.time) || !elevation_deg.is_finite() {
@@ -109,7 +109,7 @@ fn highest(ui: &Ui, rect: Rect, axis: &TimeAxis, model: &ProfileModel<'_>) {
     let size = vec2(paint::text_width(ui, &words, text::caption()), 14.0);
     let now_x = axis.x(model.now);
     let place = label_place(rect, centre, size, now_x);
-    // Keeps the number readable over a curve.
+    // The fill keeps the number readable above a curve.
     ui.painter().rect_filled(place.shrink2(vec2(-1.0, 1.0)), 2.0, t.bg0.gamma_multiply(0.8));
     paint::text(ui, place.left_center(), Align2::LEFT_CENTER, words, text::caption(), t.t1);
 }
@@ -121,8 +121,8 @@ fn diamond(painter: &Painter, centre: Pos2, fill: Color32, stroke: Stroke) {
     painter.add(Shape::convex_polygon(points, fill, stroke));
 }
 
-/// The rectangle of the label: at the left of the diamond, or at its right if the left has
-/// no room or the line of the present runs through it.
+/// Returns the rectangle of the label at the left of the diamond. It moves to the right if the left
+/// side has no room or the line of the present crosses it.
 fn label_place(rect: Rect, centre: Pos2, size: Vec2, now_x: f32) -> Rect {
     let distance = DIAMOND + 4.0;
     let y = (centre.y - 7.0).max(rect.top() + size.y / 2.0 + 1.0);

@@ -2,11 +2,11 @@
 
 use egui::{Painter, Pos2, Stroke};
 
-/// Paints `path` in dashes. Each dash is one line, also around a bend; in a dash pieced
-/// together from segments, the ends would run into the gaps.
+/// Paints `path` in dashes. Each dash is one line, even around a bend. The ends of separate
+/// segments would extend into the gaps.
 pub(in crate::ui) fn paint(painter: &Painter, path: &[Pos2], stroke: Stroke, pattern: (f32, f32)) {
     for dash in along(path, pattern) {
-        // egui aligns only a level line segment with whole pixels.
+        // egui aligns only a horizontal segment with whole pixels.
         if let [start, end] = dash[..] {
             painter.line_segment([start, end], stroke);
         } else {
@@ -15,7 +15,7 @@ pub(in crate::ui) fn paint(painter: &Painter, path: &[Pos2], stroke: Stroke, pat
     }
 }
 
-/// The dashes of `path`, by its arc length, as `pattern` gives dash and gap.
+/// Returns the dashes of `path` by its arc length; `pattern` contains dash and gap.
 fn along(path: &[Pos2], (dash, gap): (f32, f32)) -> Vec<Vec<Pos2>> {
     let mut dashes: Vec<Vec<Pos2>> = Vec::new();
     let mut drawing = false;
@@ -27,7 +27,7 @@ fn along(path: &[Pos2], (dash, gap): (f32, f32)) -> Vec<Vec<Pos2>> {
         let mut done = 0.0;
         while length - done > left {
             done += left;
-            // Exact where the path is level, which lerp is not.
+            // Unlike lerp, this formula is exact on a horizontal path.
             let here = start + (done / length) * (end - start);
             if drawing {
                 dashes.last_mut().into_iter().for_each(|line| line.push(here));

@@ -6,17 +6,17 @@ use jiff::Timestamp;
 use super::{dashes, scale};
 use crate::ui::{format, text, theme, time_axis::TimeAxis, widgets::paint};
 
-/// Height of the plot.
+/// Height of the plot, points.
 pub(super) const HEIGHT: f32 = 32.0;
-/// Dash and gap of the line at half the beam.
+/// Dash and gap of the line at half the beam, points.
 const DASH: (f32, f32) = (4.0, 4.0);
-/// Description of the plot.
+/// Description of the plot for screen readers.
 const DESCRIPTION: &str = "Pointing error: the measured angle between the antenna's direction and the \
                      satellite. The dashed line is half the beamwidth.";
-/// Gap between the plot and the words beside it.
+/// Gap between the plot and the words next to it, points.
 const GAP: f32 = 6.0;
 
-/// Shows the plot in `rect`; its name and the half beam stand beside it.
+/// Shows the plot in `rect`; its name and the half beam stand next to it.
 pub(super) fn show(
     ui: &Ui,
     rect: Rect,

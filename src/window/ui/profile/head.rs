@@ -5,18 +5,18 @@ use egui::{Align2, Color32, Pos2, Rect, Stroke, Ui, pos2};
 use super::{curves::DOTS, dashes};
 use crate::ui::{text, theme, widgets::paint};
 
-/// Length of the sample line before its word.
+/// Length of a sample line before its word, points.
 const SAMPLE_LENGTH: f32 = 18.0;
-/// Gap between a sample line and its word.
+/// Gap between a sample line and its word, points.
 const SAMPLE_GAP: f32 = 6.0;
-/// Gap between two entries.
+/// Gap between two entries, points.
 const ENTRY_GAP: f32 = 16.0;
 
-/// Shows the line, with the title cut where the legend begins.
+/// Shows the line. Cuts the title where the legend begins.
 pub(super) fn show(ui: &Ui, rect: Rect, name: &str) {
     let t = theme::tokens(ui);
     let mut right = rect.right();
-    // From the right edge to the left.
+    // The loop draws the entries from right to left.
     for (word, colour, dotted) in
         [("error", t.ant, false), ("azimuth", t.t2, true), ("elevation", t.sat, false)]
     {
@@ -33,7 +33,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, name: &str) {
     );
 }
 
-/// Paints an entry that ends at `position` and returns where it begins.
+/// Paints an entry that ends at `position`. Returns its left end.
 fn entry(ui: &Ui, position: Pos2, word: &str, colour: Color32, dotted: bool) -> f32 {
     let t = theme::tokens(ui);
     let words = paint::text(ui, position, Align2::RIGHT_CENTER, word, text::caption(), t.t2);

@@ -1,4 +1,4 @@
-//! The time that the pointer, the arrow keys or another view mark.
+//! The time that the operator marks with the pointer or the arrow keys, or that another view marks.
 
 use egui::{EventFilter, Key, Modifiers, Rect, Response, Stroke, StrokeKind, Ui, pos2, vec2};
 use jiff::Timestamp;
@@ -12,17 +12,17 @@ use crate::{
     ui::{along, format, text, theme, time_axis::TimeAxis, widgets::paint},
 };
 
-/// Step of an arrow key, and with Shift.
+/// Step of an arrow key without and with Shift, seconds.
 const STEPS_S: [f64; 2] = [10.0, 60.0];
-/// A measured error belongs to a marked time no further away than this.
+/// Max time between a mark and the measured error that it shows, seconds.
 const NEAR_S: f64 = 3.0;
-/// Gap between the line and its words.
+/// Gap between the line and its words, points.
 const GAP: f32 = 6.0;
-/// Radius of the mark on the elevation.
+/// Radius of the mark on the elevation curve, points.
 const MARK: f32 = 4.0;
 
-/// The time that the operator marks here, with the pointer over `plots` or with the arrow keys;
-/// `cursor` is the time of the keys.
+/// Returns the time that the operator marks with the pointer over `plots` or with the arrow keys.
+/// `cursor` is the time of the arrow keys.
 pub(super) fn requested_time(
     ui: &Ui,
     response: &Response,
@@ -43,7 +43,7 @@ pub(super) fn requested_time(
     hovered.map(|position| axis.time(position.x)).or(*cursor)
 }
 
-/// Seconds by which the arrow keys of this frame move the time.
+/// Returns the time by which the arrow keys of this frame move the mark, seconds.
 fn keys_s(ui: &Ui, response: &Response) -> f64 {
     let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
@@ -60,8 +60,8 @@ fn keys_s(ui: &Ui, response: &Response) -> f64 {
     })
 }
 
-/// Paints the marked time through `plots`, of which `curves` are the upper ones, with what the
-/// pass is there.
+/// Paints the marked time through `plots`, and the values of the pass at that time. `curves` are
+/// the upper plots.
 pub(super) fn paint(
     ui: &Ui,
     plots: Rect,
@@ -101,7 +101,7 @@ pub(super) fn paint(
     paint::name_text(ui, "marked", place, &name);
 }
 
-/// The measured error nearest to `time`, degrees.
+/// Returns the measured error nearest to `time`, degrees.
 fn error_at(model: &ProfileModel<'_>, time: Timestamp) -> Option<f32> {
     let away_s = |moment: Timestamp| seconds_between(moment, time).abs();
     let near =

@@ -1,4 +1,4 @@
-//! The errors of past tracks: a list to choose from, and the curve of one.
+//! The errors of past tracks: a list to choose from, and the curve of the chosen track.
 
 use egui::{
     Align2, Popup, Rect, Role, Stroke, StrokeKind, TextWrapMode, Ui, WidgetInfo, pos2, vec2,
@@ -17,11 +17,11 @@ use crate::{
     },
 };
 
-/// Size of the button that opens the list.
+/// Size of the button that opens the list, points.
 const BUTTON: egui::Vec2 = vec2(24.0, 22.0);
 const GAP: f32 = 10.0;
 
-/// A track that is over.
+/// A past track.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PastModel<'a> {
     pub now: Timestamp,
@@ -32,7 +32,7 @@ pub struct PastModel<'a> {
     pub worst_deg: f64,
     pub worst_at: Timestamp,
     pub errors: &'a Errors,
-    /// Half the beam width.
+    /// Half of the beam width, degrees.
     pub half_beam_deg: f64,
 }
 
@@ -45,8 +45,8 @@ impl PastModel<'_> {
     }
 }
 
-/// Shows the button that lists the past tracks, if there are any; returns what it leaves of the
-/// head line.
+/// Shows the button that lists the past tracks, if there are any. Returns the free part of the head
+/// line.
 pub(super) fn choice(
     ui: &Ui,
     rect: Rect,

@@ -1,24 +1,24 @@
-//! The scales of the plots: values to y.
+//! The scales of the plots, which map values to y.
 
 use egui::{Pos2, Rect, pos2};
 
-/// Top of the elevation scale.
+/// Top of the elevation scale, degrees.
 pub(in crate::ui) const ELEVATION_TOP_DEG: f64 = 90.0;
-/// Top of the azimuth scale.
+/// Top of the azimuth scale, degrees.
 pub(in crate::ui) const AZIMUTH_TOP_DEG: f64 = 360.0;
-/// Minimum top of the error plot, in half beams.
+/// Min top of the error plot, in half beams.
 const MIN_ERROR_HALF_BEAMS: f64 = 1.4;
-/// Maximum top of the error plot, in half beams; larger errors lie at the top edge.
+/// Max top of the error plot, in half beams; larger errors lie at the top edge.
 const MAX_ERROR_HALF_BEAMS: f64 = 3.0;
 
-/// The y of `value` in `rect`, whose bottom is 0 and whose top is `top`. A value beyond them
-/// lies at the edge.
+/// Returns the y of `value` in `rect`, whose bottom is 0 and whose top is `top`. A value outside
+/// this range lies at the edge.
 pub(in crate::ui) fn y(rect: Rect, value: f64, top: f64) -> f32 {
     rect.bottom() - (value / top).clamp(0.0, 1.0) as f32 * rect.height()
 }
 
-/// The top of the error plot in degrees: 1.4 half beams, or up to 3 if an
-/// error is larger. Without a beam, the largest error.
+/// Returns the top of the error plot, degrees: 1.4 half beams, or up to 3 for larger errors.
+/// Without a beam, the top is the largest error.
 pub(in crate::ui) fn error_top_deg(errors: impl Iterator<Item = f64>, half_beam_deg: f64) -> f64 {
     let largest = errors.filter(|error| error.is_finite()).fold(0.0, f64::max);
     if has_beam(half_beam_deg) {
@@ -34,7 +34,7 @@ pub(in crate::ui) fn has_beam(half_beam_deg: f64) -> bool {
     half_beam_deg.is_finite() && half_beam_deg > 0.0
 }
 
-/// The points of a curve, cut into pieces at values that are not finite.
+/// Returns the points of a curve, cut into pieces at values that are not finite.
 pub(in crate::ui) fn pieces(
     points: impl Iterator<Item = (f32, f64)>,
     rect: Rect,
@@ -52,9 +52,8 @@ pub(in crate::ui) fn pieces(
     pieces
 }
 
-/// Azimuths in degrees, broken where they pass north: one piece ends at one
-/// edge of the scale, and a value that is not finite separates it from the
-/// next, which starts at the other edge.
+/// Breaks a curve of azimuths in degrees where it crosses north. One piece ends at one edge of the
+/// scale, and the next starts at the other edge. A value that is not finite separates them.
 pub(in crate::ui) fn broken_at_north(points: impl Iterator<Item = (f32, f64)>) -> Vec<(f32, f64)> {
     let mut broken: Vec<(f32, f64)> = Vec::new();
     for (x, azimuth_deg) in points {

@@ -9,7 +9,7 @@ fn time(seconds: f64) -> Timestamp {
     add_seconds("2026-11-14T11:01:53Z".parse().unwrap(), seconds)
 }
 
-/// A pass of ten minutes over the north, highest in its middle.
+/// Returns a pass of ten minutes over the north, highest in its middle.
 fn track() -> Vec<Sample> {
     (0..=60)
         .map(|step| {
@@ -52,7 +52,7 @@ fn the_pointer_marks_a_time_and_reads_the_pass_there() {
     let (track, errors) = (track(), [(time(149.0), 0.2), (time(190.0), 0.04)]);
     let mut window = window([392.0, 208.0], Some(model(&track, &errors)));
     window.run();
-    // A quarter of the way between the two scales.
+    // The pointer is at a quarter of the way between the two scales.
     window.hover_at(pos2(LEFT_SCALE + (392.0 - LEFT_SCALE - RIGHT_SCALE) / 4.0, 100.0));
     window.run();
     let requested = window.state().1.unwrap();

@@ -10,18 +10,17 @@ use crate::{
     ui::{format, text, theme, time_axis::TimeAxis, widgets::paint},
 };
 
-/// Centre of the times below the plots.
+/// Centre of the times below the plots, points.
 const BELOW: f32 = 12.0;
-/// Gap between two of the times.
+/// Gap between two of the times, points.
 const GAP: f32 = 8.0;
 
-/// Names of the ends of the axis. The ends of a cut pass are not its AOS and LOS.
+/// Returns the names of the ends of the axis. The ends of a cut pass are not its AOS and LOS.
 fn ends(cut: bool) -> (&'static str, &'static str) {
     if cut { ("from", "to") } else { ("AOS", "LOS") }
 }
 
-/// Paints the times of begin, maximum and end under `plot`. The maximum is left out if it
-/// has no room.
+/// Paints the times of begin, maximum and end under `plot`. Omits the maximum if it has no room.
 pub(super) fn times(ui: &Ui, plot: Rect, axis: &TimeAxis, model: &ProfileModel<'_>) {
     let colour = theme::tokens(ui).t2;
     let y = plot.bottom() + BELOW;
@@ -42,13 +41,13 @@ pub(super) fn times(ui: &Ui, plot: Rect, axis: &TimeAxis, model: &ProfileModel<'
     }
 }
 
-/// The centre nearest to `x` of a span that reaches `half` to both sides and lies between
+/// Returns the centre nearest to `x` of a span that extends `half` to both sides and lies between
 /// `left` and `right`. `None` if the room is too narrow.
 fn centre(x: f32, half: f32, left: f32, right: f32) -> Option<f32> {
     (left + half <= right - half).then(|| x.clamp(left + half, right - half))
 }
 
-/// The pass in a sentence, for screen readers.
+/// Describes the pass in a sentence, for screen readers.
 pub(super) fn sentence(axis: &TimeAxis, model: &ProfileModel<'_>) -> String {
     let (begin, end) = ends(model.cut);
     let azimuth = |sample: Option<&Sample>| match sample.map(|s| s.direction.azimuth_deg()) {

@@ -27,10 +27,11 @@ const GAP: f32 = 8.0;
 const TITLE: f32 = 228.0;
 const SMALL_TITLE: f32 = 76.0;
 const SEARCH: f32 = 208.0;
-/// In a bar below this width the recording state is a mark, and the title has no second line.
+/// Bar width below which the recording state is only a mark and the title has no second line,
+/// points.
 const WIDE: f32 = 1150.0;
 const ANTENNA: f32 = 84.0;
-/// Time before the present at which a replay of the last hour begins, seconds.
+/// Time before the present at which a replay of the last hour starts to play, seconds.
 const LAST_S: f64 = 60.0;
 const KINDS: [ListedKind; 4] = [
     ListedKind::Tracked(PassVerdict::Good),
@@ -96,7 +97,7 @@ fn title(ui: &Ui, rect: Rect, model: &Model, is_wide: bool, state: &RecordState)
     }
 }
 
-/// Number of passes, start of the record, and its size.
+/// Returns the number of passes, and the start and size of the record.
 fn summary(model: &Model, state: &RecordState) -> String {
     let Some(page) = RecordState::page(model) else { return String::new() };
     let size = model.record.as_ref().map(|record| format::bytes(record.bytes));
@@ -178,7 +179,7 @@ fn verdicts(ui: &Ui, place: &mut impl FnMut(f32) -> Rect, state: &mut RecordStat
     });
 }
 
-/// Opens the dialog for the passes of several days. Returns the room at the left of its button.
+/// Shows the button that opens the dialog for exporting several days. Returns the room at its left.
 fn export_days(ui: &Ui, room: Rect, model: &Model, state: &mut RecordState) -> Rect {
     let is_of_reports = state.query.kind != Some(ListedKind::NotTracked);
     let has_none = (!is_of_reports).then_some("A pass that was not tracked has no report.");
@@ -195,7 +196,7 @@ fn export_days(ui: &Ui, room: Rect, model: &Model, state: &mut RecordState) -> R
     room.with_max_x(min.x - GAP)
 }
 
-/// Shows the last hour again. Returns the room at the left of its button.
+/// Shows the button that replays the last hour. Returns the room at its left.
 fn last_hour(ui: &Ui, room: Rect, model: &Model, commands: &mut Vec<UiCommand>) -> Rect {
     let button = Button::normal("Replay the last hour").locked_by(lock(model));
     let size = vec2(button.width(ui), BUTTON);
@@ -214,7 +215,7 @@ fn last_hour(ui: &Ui, room: Rect, model: &Model, commands: &mut Vec<UiCommand>) 
     room.with_max_x(min.x - 2.0 * GAP)
 }
 
-/// State of the recording, at the right.
+/// Shows the state of the recording at the right.
 fn recording(ui: &Ui, room: Rect, model: &Model) {
     let t = theme::tokens(ui);
     let failing = model.record.as_ref().and_then(|record| record.failing.as_ref());
@@ -232,7 +233,7 @@ fn recording(ui: &Ui, room: Rect, model: &Model) {
         return;
     }
     let width = paint::text_width(ui, &words, text::small()) + 20.0;
-    // Without room for the words the mark stands alone, unless they tell of a failure.
+    // A narrow bar shows only the mark, except after a failure.
     let has_words = width <= room.width() || failing.is_some();
     let width = if has_words { width } else { 12.0 };
     let place = room.with_min_x((room.right() - width).max(room.left()));

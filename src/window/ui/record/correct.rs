@@ -1,4 +1,5 @@
-//! The operator takes a correction over: it is typed into the form of the unit, or asked about.
+//! Accepting a correction: Azel fills the values into the form of the unit or asks for
+//! confirmation.
 
 use crate::{
     contract,
@@ -10,7 +11,8 @@ use crate::{
     ui::{antennas::AntennasState, confirm::Question, copies::CopiedValues, words},
 };
 
-/// Types the value in where it belongs, marked as edited, or asks before it is remembered.
+/// Fills the values into their fields, marked as edited, or asks before Azel stores remembered
+/// offsets.
 pub fn take_over(
     Correction { antenna, method }: Correction,
     model: &Model,

@@ -1,4 +1,4 @@
-//! The time at which all drawings of a report are read.
+//! The cursor: the time at which all drawings of a report are read.
 
 use jiff::Timestamp;
 
@@ -8,10 +8,11 @@ use crate::{
     ui::recorded_track,
 };
 
-/// Points further from the cursor than this say nothing of it, seconds.
+/// Max time between the cursor and a point that it reads, seconds.
 const NEAR_S: f64 = 2.0;
 
-/// The point of the track at the cursor; that of the worst error until the operator moves it.
+/// Returns the point of the track at the cursor. Until the operator moves the cursor, this is the
+/// point of the worst error.
 pub(super) fn point<'a>(opened: &'a OpenedPass, state: &RecordState) -> Option<&'a TrackPoint> {
     if let Some(time) = state.cursor {
         return nearest(&opened.track, time);

@@ -22,22 +22,22 @@ use crate::{
     },
 };
 
-/// Time that is shown before AOS and after LOS.
+/// Time shown before AOS and after LOS.
 const MARGIN: SignedDuration = SignedDuration::from_secs(60);
 const TITLE: f32 = 28.0;
-/// Least heights of both plots.
+/// Min heights of the two plots, points.
 const DIRECTION: f32 = 78.0;
 const ERROR: f32 = 104.0;
-/// Room for the numbers at the left and at the right.
+/// Widths for the numbers at the left and at the right, points.
 const LEFT: f32 = 60.0;
 const RIGHT: f32 = 120.0;
 const GAP: f32 = 6.0;
 const DOTS: (f32, f32) = (1.5, 3.5);
 const DASH: (f32, f32) = (6.0, 4.0);
-/// Width of the readout at the cursor.
+/// Width of the readout at the cursor, points.
 const READOUT: f32 = 176.0;
 
-/// An error of a point, degrees.
+/// Function that returns one error of a point, degrees.
 type Part = fn(&PointingError, &TrackPoint) -> f64;
 
 pub(super) fn show(
@@ -97,8 +97,8 @@ pub(super) fn show(
     }
 }
 
-/// Moves the cursor with the pointer and the arrow keys. Returns `true` when the moment at the cursor
-/// is to be shown again: by a double click, or by Enter.
+/// Moves the cursor with the pointer and the arrow keys. Returns `true` when the operator starts a
+/// replay at the cursor with a double click or Enter.
 fn follow_pointer(
     ui: &Ui,
     rect: Rect,
@@ -173,7 +173,7 @@ fn grid(ui: &Ui, rect: Rect, axis: &TimeAxis) {
     }
 }
 
-/// Full minutes at which lines stand, at most eight.
+/// Returns the full minutes for grid lines, at most eight.
 pub(super) fn minutes(axis: &TimeAxis) -> Vec<Timestamp> {
     let every_s = [60, 120, 300, 600, 1800, 3600, 7200]
         .into_iter()
@@ -232,7 +232,7 @@ fn directions(ui: &Ui, rect: Rect, axis: &TimeAxis, opened: &OpenedPass) {
     }
 }
 
-/// A curve along the track, with a break where nothing was measured.
+/// Returns a curve along the track, with breaks where measurements are missing.
 fn with_breaks(axis: &TimeAxis, track: &[TrackPoint], part: Part) -> Vec<(f32, f64)> {
     let mut curve = Vec::new();
     for piece in recorded_track::pieces(track) {
@@ -290,7 +290,7 @@ fn errors(ui: &Ui, rect: Rect, axis: &TimeAxis, opened: &OpenedPass) {
     }
 }
 
-/// Predicted and measured values at the cursor.
+/// Draws the predicted and the measured values at the cursor.
 fn readout(ui: &Ui, rect: Rect, x: f32, point: &TrackPoint, now: Timestamp) {
     let t: &Tokens = theme::tokens(ui);
     let is_right = x + READOUT + 20.0 < rect.right() + RIGHT - 8.0;

@@ -1,4 +1,4 @@
-//! The dialog for the passes of several days, which go into one file.
+//! The dialog that exports the passes of several days into one file.
 
 use egui::{Grid, Key, RichText, Sense, TextEdit, Ui, vec2};
 use jiff::{ToSpan as _, civil::Date, tz::TimeZone};
@@ -18,12 +18,12 @@ use crate::{
 };
 
 const WIDTH: f32 = 360.0;
-/// Width of the field of a day.
+/// Width of the field of a day, points.
 const DAY: f32 = 120.0;
-/// Days that are offered.
+/// Default number of exported days.
 const DAYS: i64 = 7;
 
-/// The typed days.
+/// The entered days.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct DaysDialog {
     first: String,
@@ -31,7 +31,7 @@ pub(super) struct DaysDialog {
 }
 
 impl DaysDialog {
-    /// The last week.
+    /// Creates a dialog for the last week.
     pub(super) fn new(model: &Model) -> Self {
         let last = model.now.to_zoned(TimeZone::UTC).date();
         let first = last.checked_sub((DAYS - 1).days()).unwrap_or(last);
@@ -48,7 +48,7 @@ impl DaysDialog {
     }
 }
 
-/// Shows the dialog until it is answered.
+/// Shows the dialog until the operator answers it.
 pub(super) fn show(ui: &Ui, state: &mut RecordState, commands: &mut Vec<UiCommand>) {
     let (filters, query) = (state.filters(), state.query.clone());
     let Some(dialog) = &mut state.days else { return };
@@ -92,7 +92,7 @@ fn content(ui: &mut Ui, dialog: &mut DaysDialog, filters: bool) -> Option<Answer
         }
     });
     let problem = dialog.days().err();
-    // Its room is kept free, so that the buttons stay where they are.
+    // The line always takes its room, so that the buttons keep their place.
     let tone = if problem.is_some() { Tone::Bad } else { Tone::Plain };
     status_line::line(ui, tone, problem.unwrap_or_default());
     ui.add_space(8.0);

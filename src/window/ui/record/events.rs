@@ -22,17 +22,17 @@ use crate::{
 };
 
 const LANE: f32 = 20.0;
-/// Between a mark and words.
+/// Gap between a mark and its words, points.
 const GAP: f32 = 6.0;
-/// Room for words right of the lane.
+/// Room for words to the right of the lane, points.
 const MIN_DISTANCE: f32 = 80.0;
-/// In less room words would say nothing.
+/// Min room for words, points; shorter words would be meaningless.
 const MIN_ROOM: f32 = 24.0;
-/// A shorter loss would be told as 0:00, seconds.
+/// Min duration of a shown loss, seconds. The view would show a shorter loss as 0:00.
 const MIN_S: f64 = 1.0;
 const LANES: [&str; 4] = ["Pass", "Sent", "Link", "Alarm"];
 
-/// Draws the lanes into `rect`; times lie as in `plots` above.
+/// Draws the lanes into `rect`; times have the same x as in `plots` above.
 pub(super) fn show(
     ui: &Ui,
     rect: Rect,
@@ -66,7 +66,7 @@ pub(super) fn show(
     }
 }
 
-/// A moment with its words.
+/// An event at a moment, with its words.
 struct Moment {
     time: Timestamp,
     words: String,
@@ -137,7 +137,7 @@ fn events(model: &Model, axis: &TimeAxis, opened: &OpenedPass) -> [Vec<Moment>; 
             "gap" => (2, not_recorded(row), Colour::Caution),
             _ => continue,
         };
-        // A gap is noted at its end.
+        // The record contains a gap at its end.
         let time = row.gap_since().map_or(row.time, |start| start.max(axis.start()));
         if let Some(lane) = lanes.get_mut(lane) {
             lane.push(Moment { time, words, colour });
@@ -163,7 +163,7 @@ fn events(model: &Model, axis: &TimeAxis, opened: &OpenedPass) -> [Vec<Moment>; 
     lanes
 }
 
-/// A STOP with who pressed it, or what became of it.
+/// Describes a STOP with its origin or its outcome.
 fn stop(row: &Row) -> String {
     match origin_of_row(row) {
         Some(origin) => format!("STOP (from {})", given_by(origin)),
@@ -185,7 +185,7 @@ fn origin_of_row(row: &Row) -> Option<CommandOrigin> {
     row.data.get("by").cloned().and_then(|origin| serde_json::from_value(origin).ok())
 }
 
-/// A command in words: what, and who gave it.
+/// Describes a command and its origin.
 fn command(row: &Row) -> String {
     let command = row.data.get("command");
     let of_antenna =
@@ -208,7 +208,7 @@ fn given_by(origin: CommandOrigin) -> String {
     }
 }
 
-/// The name of a variant as words.
+/// Splits the name of a variant into words.
 fn variant(value: &serde_json::Value) -> Option<String> {
     let name = value.as_str().or_else(|| {
         value.as_object().and_then(|fields| fields.keys().next()).map(String::as_str)
@@ -229,7 +229,7 @@ fn has_positions(cause: LossCause) -> bool {
     !matches!(cause, LossCause::NotMeasured | LossCause::LinkLost)
 }
 
-/// Where positions came in, and where none did.
+/// Draws bars where positions arrived, and where they were missing.
 fn link(ui: &Ui, lane: Rect, axis: &TimeAxis, opened: &OpenedPass) {
     let t = theme::tokens(ui);
     let report = &opened.pass.report;
@@ -252,7 +252,7 @@ fn mark(lane: Rect, axis: &TimeAxis, time: Timestamp) -> Rect {
     Rect::from_center_size(pos2(x, lane.center().y), egui::vec2(3.0, 13.0))
 }
 
-/// The moments of a lane as controls, in their order.
+/// Draws the moments of a lane as controls, in order of time.
 fn controls(
     ui: &Ui,
     (number, lane): (usize, Rect),
@@ -275,9 +275,9 @@ fn controls(
     }
 }
 
-/// Draws the moments of a lane; words only where they do not reach the next.
+/// Draws the moments of a lane. Omits words that would reach the next moment.
 fn marks(ui: &Ui, lane: Rect, axis: &TimeAxis, moments: &[Moment]) {
-    // From the right: the words of a moment end before those of the next begin.
+    // The loop runs from the right: the words of a moment end before the words of the next begin.
     let mut free_to = lane.right() + MIN_DISTANCE;
     for (index, moment) in moments.iter().enumerate().rev() {
         let colour = moment.colour.in_theme(ui);

@@ -1,4 +1,4 @@
-//! The table of what would explain the error.
+//! The table of possible causes of the error.
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
@@ -113,7 +113,8 @@ pub(super) fn show(
     }
 }
 
-/// The button of the correction at this place, or a dash where there is none; returns it if it was pressed.
+/// Shows the correction button of a cause, or a dash without a correction. Returns the correction
+/// when the operator presses the button.
 fn offered(
     ui: &Ui,
     cell: Rect,
@@ -131,7 +132,7 @@ fn offered(
     response.on_hover_text(words).clicked().then_some(correction)
 }
 
-/// Ranges of x.
+/// Columns of the table, as ranges of x.
 struct Columns {
     cause: (f32, f32),
     size: (f32, f32),

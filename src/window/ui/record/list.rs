@@ -28,7 +28,7 @@ use crate::{
 
 const DAY: f32 = 28.0;
 const ROW: f32 = 50.0;
-/// A row with the cause of its loss or error.
+/// Height of a row with the cause of its loss or error, points.
 const HIGH_ROW: f32 = 66.0;
 const FOOT: f32 = 44.0;
 
@@ -91,7 +91,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, state: &mut RecordSta
     }
 }
 
-/// Number of passes of the page, with those that cannot be read.
+/// Returns the number of passes on the page, including unreadable ones.
 fn on_page(page: &crate::contract::record::PassPage) -> u32 {
     let passes = u32::try_from(page.passes.len()).unwrap_or(u32::MAX);
     passes.saturating_add(page.unreadable).min(page.matching)
@@ -123,7 +123,7 @@ fn head(ui: &Ui, rect: Rect, of_day: &[Listed<'_>]) {
     paint::name_text(ui, ("record day", &day), rect, &format!("{day}: {words}"));
 }
 
-/// The row of a pass that was to be tracked, and was not. There is nothing to open.
+/// Draws the row of a planned pass that was not tracked. It has no report.
 fn missed(ui: &Ui, rect: Rect, now: Timestamp, pass: &MissedPass) {
     let t = theme::tokens(ui);
     let aos = format::moment(pass.flown.pass.1, now);
@@ -136,7 +136,7 @@ fn missed(ui: &Ui, rect: Rect, now: Timestamp, pass: &MissedPass) {
     paint::name_text(ui, ("missed pass", pass.id), rect, &spoken).on_hover_text(&cause);
 }
 
-/// Mark and colour of a verdict.
+/// Returns mark and colour of a verdict.
 pub(super) fn mark(verdict: PassVerdict, t: &Tokens) -> (Icon, Color32) {
     match verdict {
         PassVerdict::Good => (Icon::Check, t.ok),

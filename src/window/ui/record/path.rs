@@ -1,4 +1,4 @@
-//! The path over the sky, with the error of the antenna enlarged, and what stands in its way.
+//! The path over the sky with its obstacles, and the error of the antenna enlarged.
 
 use std::collections::HashMap;
 
@@ -32,9 +32,9 @@ use crate::{
 const TITLE: f32 = 32.0;
 const LEGEND: f32 = 28.0;
 const DASH: (f32, f32) = (6.0, 4.0);
-/// Paints a sample of an area around a place.
+/// Function that paints a sample of an area around a place.
 type AreaSample = fn(&Painter, Pos2, &Tokens);
-/// Length of the tick of a minute.
+/// Length of a minute tick, points.
 const TICK: f32 = 6.0;
 
 pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, opened: &OpenedPass, state: &RecordState) {
@@ -90,7 +90,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, opened: &OpenedPass, stat
         painter.line_segment([position, deviation], Stroke::new(2.5, t.warn));
         painter.circle_filled(position, 4.0, t.sat);
         painter.circle_stroke(deviation, 4.0, Stroke::new(1.5, t.ant));
-        // The track has a point a second, and the report looked at every position.
+        // The track has one point a second, but the report evaluated every position.
         let worst = opened.pass.report.report.worst.filter(|_| state.cursor.is_none());
         let (off_deg, at_time) = worst
             .map_or((point.error.off_deg, point.time), |worst| (worst.error.off_deg, worst.time));
@@ -107,17 +107,17 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, opened: &OpenedPass, stat
         .widget_info(|| WidgetInfo::labeled(egui::Role::Image, true, &spoken));
 }
 
-/// Obstacles of the station and keyholes of the antenna, as they are set now.
+/// Current obstacles of the station and keyholes of the antenna.
 struct InTheWay<'a> {
     mask: Option<&'a HorizonMask>,
     keyholes: Option<Keyholes>,
 }
 
 impl<'a> InTheWay<'a> {
-    /// The mask applies only to the site of the pass. An antenna that was removed has no known
-    /// keyholes.
+    /// Collects the obstacles. The mask applies only to the site of the pass, and a removed antenna
+    /// has no known keyholes.
     fn new(model: &'a Model, opened: &OpenedPass) -> Self {
-        // The same place, whatever its refraction is set to since.
+        // The comparison ignores refraction, because the operator may have changed it since.
         let is_here = opened
             .pass
             .report
@@ -131,7 +131,8 @@ impl<'a> InTheWay<'a> {
         }
     }
 
-    /// Names them at the right end of `row`. Returns where the room before them ends.
+    /// Draws the names of the obstacles at the right end of `row`. Returns the right end of the
+    /// room before them.
     fn legend(&self, ui: &Ui, row: Rect) -> f32 {
         let t = theme::tokens(ui);
         let mask = self.mask.map(|_| ("mask", legend::mask as AreaSample));
@@ -157,14 +158,14 @@ impl<'a> InTheWay<'a> {
     }
 }
 
-/// The place of the antenna, with its error enlarged; `None` outside of the plot.
+/// Returns the place of the antenna with its error enlarged; `None` outside of the plot.
 fn enlarged_at(dome: Dome, point: &TrackPoint, factor: u16) -> Option<Pos2> {
     let satellite = dome.visible(point.satellite)?;
     let antenna = dome.point(point.antenna)?;
     Some(satellite + (antenna - satellite) * f32::from(factor))
 }
 
-/// The flown path in pieces that were measured without a break.
+/// Returns the tracked path, split where measurements are missing.
 fn flown(dome: Dome, track: &[TrackPoint], factor: u16) -> Vec<Vec<Pos2>> {
     let pieces = recorded_track::pieces(track).map(|piece| {
         piece.iter().filter_map(|point| enlarged_at(dome, point, factor)).collect::<Vec<_>>()
@@ -172,8 +173,8 @@ fn flown(dome: Dome, track: &[TrackPoint], factor: u16) -> Vec<Vec<Pos2>> {
     pieces.filter(|piece| piece.len() > 1).collect()
 }
 
-/// Marks each full minute on both paths, on the left side of the predicted one and on the right
-/// side of the flown one: an error along the path shows as ticks that do not meet.
+/// Marks each full minute on both paths, left of the predicted path and right of the tracked path.
+/// An error along the path shows as ticks that do not meet.
 fn ticks(painter: &Painter, dome: Dome, opened: &OpenedPass, factor: u16, t: &Tokens) {
     let is_minute = |before: Timestamp, time: Timestamp| {
         before.as_second().div_euclid(60) != time.as_second().div_euclid(60)
@@ -225,7 +226,7 @@ fn ends(
     }
 }
 
-/// Towards the middle of the plot there is room.
+/// Adds a label towards the middle of the plot, where there is room.
 fn label(
     labels: &mut Labels<'_>,
     key: Key,

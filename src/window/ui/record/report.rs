@@ -22,7 +22,7 @@ use crate::{
 };
 
 pub(super) const HEAD: f32 = 56.0;
-/// Room above, below and beside the sentence in its box.
+/// Padding around the sentence in its box, points.
 const INSET: f32 = 12.0;
 const FORMATS: [(ReportFormat, &str); 3] = [
     (ReportFormat::Html, "Page to print (HTML)"),
@@ -86,7 +86,7 @@ pub(super) fn head(
     paint::name_text(ui, "report head", room, &format!("{name}, {author}, {when}"));
 }
 
-/// Shows the pass again, from `time` on or from shortly before its track.
+/// Returns the command that replays the pass, from `time` or from shortly before its track.
 pub(super) fn replay_of(pass: &RecordedPass, time: Option<Timestamp>) -> UiCommand {
     let stretch = Stretch::new(pass);
     let time = time.unwrap_or(stretch.start);

@@ -20,25 +20,25 @@ use crate::{
     },
 };
 
-/// Passes that are listed at first, and as many more at a time.
+/// Number of passes listed initially, and added by each step.
 const PAGE: u32 = 200;
 
 /// Query, chosen pass, and the time at the cursor.
 #[derive(Debug)]
 pub struct RecordState {
     pub(super) query: PassQuery,
-    /// Number of the chosen pass; `None` for the newest.
+    /// Id of the chosen pass; `None` for the newest.
     chosen: Option<i64>,
-    /// Request that the station received last.
+    /// The last request to the station.
     record_look: Option<RecordLook>,
-    /// The time at which all drawings are read.
+    /// Time of the cursor in all drawings.
     pub(super) cursor: Option<Timestamp>,
     pub(super) list_is_open: bool,
-    /// The list scrolls to the chosen pass.
+    /// `true` if the list has to scroll to the chosen pass.
     pub(super) scrolls: bool,
-    /// The days that the operator exports.
+    /// Dialog for the days to export; `None` while it is closed.
     pub(super) days: Option<DaysDialog>,
-    /// A correction that the operator takes over, or why there is none.
+    /// Correction that the operator accepts, or the reason why there is none.
     pub correction: Option<Result<Correction, String>>,
 }
 
@@ -81,12 +81,12 @@ impl Default for RecordState {
 }
 
 impl RecordState {
-    /// The listed passes, the newest first.
+    /// Returns the listed tracked passes, the newest first.
     pub(super) fn passes(model: &Model) -> &[RecordedPass] {
         found(model).map_or(&[], |found| &found.page.passes)
     }
 
-    /// Returns the listed passes, the newest first.
+    /// Returns all listed passes, tracked or missed, the newest first.
     pub(super) fn listed(model: &Model) -> Vec<Listed<'_>> {
         let missed = found(model).map_or(&[][..], |found| &found.missed);
         let tracked = Self::passes(model).iter().map(Listed::Tracked);
@@ -99,7 +99,7 @@ impl RecordState {
         found(model).map(|found| &found.page)
     }
 
-    /// Number of the pass whose report is shown.
+    /// Returns the id of the pass whose report is shown.
     pub(super) fn shown(&self, model: &Model) -> Option<i64> {
         self.chosen.or_else(|| Self::passes(model).first().map(|pass| pass.id))
     }
@@ -115,7 +115,7 @@ impl RecordState {
         self.list_is_open = false;
     }
 
-    /// Chooses the pass so many rows further down.
+    /// Chooses the pass `down` rows further down.
     pub fn step(&mut self, model: &Model, down: isize) {
         let passes = Self::passes(model);
         let shown = self.shown(model);
@@ -128,19 +128,19 @@ impl RecordState {
         }
     }
 
-    /// Shows the pass of the report again, if that is possible.
+    /// Returns the command that replays the pass of the report, if a replay is possible.
     pub fn replay(&self, model: &Model) -> Option<UiCommand> {
         let opened = self.opened(model).filter(|_| lock(model).is_none())?;
         Some(report::replay_of(&opened.pass, None))
     }
 
-    /// Saves the page of the report, if one is shown.
+    /// Returns the command that saves the page of the report, if a report is open.
     pub fn export(&self, model: &Model) -> Option<UiCommand> {
         let format = ReportFormat::Html;
         self.opened(model).map(|_| UiCommand::Save(Export::Report { format }))
     }
 
-    /// Takes over what would correct the best explanation of the report.
+    /// Accepts the correction for the best explanation of the report.
     pub fn correct(&mut self, model: &Model) {
         if model.replay.is_some() {
             self.correction = Some(Err(replay::REFUSED.to_owned()));
@@ -162,13 +162,13 @@ impl RecordState {
         self.days.is_some()
     }
 
-    /// Returns `true` if the query leaves passes out.
+    /// Returns `true` if the query excludes passes.
     pub(super) fn filters(&self) -> bool {
         let all = PassQuery { count: self.query.count, ..PassQuery::default() };
         self.query != all
     }
 
-    /// Asks the station for what is shown, if that is new.
+    /// Requests the data to show from the station, if the request has changed.
     pub(super) fn ask(&mut self, model: &Model, commands: &mut Vec<UiCommand>) {
         let look = RecordLook { query: self.query.clone(), opened: self.shown(model) };
         if self.record_look.as_ref() != Some(&look) {
@@ -177,14 +177,14 @@ impl RecordState {
         }
     }
 
-    /// Ends the looking, in another view.
+    /// Ends the request to the station when another view opens.
     pub fn leave(&mut self, commands: &mut Vec<UiCommand>) {
         if self.record_look.take().is_some() {
             commands.push(UiCommand::Station(contract::Command::LookAtRecord(None)));
         }
     }
 
-    /// Why there is no report: a head and a sentence.
+    /// Returns a title and a sentence about why there is no report.
     pub(super) fn why_nothing(model: &Model) -> (&'static str, String) {
         let Some(recorded) = &model.recorded else {
             return ("Record", "The record is being read.".to_owned());
@@ -207,7 +207,7 @@ impl RecordState {
     }
 }
 
-/// The reason why controls are locked that show or change what is recorded.
+/// Returns the reason why controls are locked that replay or change the record.
 pub fn lock(model: &Model) -> Option<&'static str> {
     replay::lock(model).or(model.record.is_none().then_some("Nothing is recorded."))
 }

@@ -1,4 +1,4 @@
-//! Notice in place of the strip when a replay has ended by itself.
+//! The notice that replaces the strip when a replay has ended automatically.
 
 use egui::{Align2, Rect, Ui, vec2};
 use jiff::Timestamp;
@@ -12,8 +12,8 @@ use crate::{
     },
 };
 
-/// Shows why it has ended. The notice stays until the operator closes it or opens another view:
-/// without it every control would move under the pointer.
+/// Shows why the replay has ended. The notice stays until the operator closes it or opens another
+/// view, so that no control moves under the pointer.
 pub fn show(
     ui: &Ui,
     rect: Rect,
@@ -36,7 +36,7 @@ pub fn show(
     }
 }
 
-/// Reason why a replay ended by itself, in a sentence.
+/// Returns the reason why a replay ended automatically, in a sentence.
 fn ended(reason: &ReplayEnd, now: Timestamp) -> String {
     match reason {
         ReplayEnd::Stop => "Replay ended: STOP was pressed.".to_owned(),

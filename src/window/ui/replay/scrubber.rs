@@ -1,4 +1,4 @@
-//! The stretch of a replay as a bar, with its passes and the moment that is shown.
+//! The bar of a replay, with its passes and the current time.
 
 use egui::{
     Align2, EventFilter, Id, Rect, Response, Role, Sense, StrokeKind, Ui, WidgetInfo, pos2, vec2,
@@ -16,22 +16,22 @@ use crate::{
     ui::{format, text, theme, time_axis::TimeAxis, widgets::paint},
 };
 
-/// Least width of the bar.
+/// Min width of the bar, points.
 const MIN_WIDTH: f32 = 40.0;
-/// Half the height of the bar, and of the box around a pass.
+/// Half the height of the bar, and of the box around a pass, points.
 const HALF_BAR: f32 = 4.0;
 const HALF_BOX: f32 = 7.0;
-/// Least width of what was lost.
+/// Min width of a lost part, points.
 const MIN_LOST: f32 = 2.0;
-/// Least gap between two words below the bar.
+/// Min gap between two words below the bar, points.
 const WORD_GAP: f32 = 6.0;
 
-/// The bar, of which there is one: the keys of a replay work with the focus there as well.
+/// Returns the id of the only bar. The keys of a replay also work while the bar has the focus.
 pub(super) fn id() -> Id {
     Id::unique("replay moment")
 }
 
-/// Shows the bar in `rect`. A click or a drag there goes to a moment.
+/// Shows the bar in `rect`. A click or a drag on the bar jumps to a time.
 pub(super) fn scrubber(ui: &Ui, rect: Rect, replay: &Replayed, commands: &mut Vec<UiCommand>) {
     if rect.width() < MIN_WIDTH {
         return;
@@ -66,7 +66,7 @@ pub(super) fn scrubber(ui: &Ui, rect: Rect, replay: &Replayed, commands: &mut Ve
     }
 }
 
-/// The bar, and the time along it.
+/// The bar and its time axis.
 struct Line {
     bar: Rect,
     axis: TimeAxis,
@@ -83,7 +83,8 @@ impl Line {
     }
 }
 
-/// A box from AOS to LOS, a tick at TCA, and in red where the beam was lost.
+/// Draws a pass: a box from AOS to LOS, a tick at TCA, and red parts where the beam lost the
+/// satellite.
 fn pass(ui: &Ui, line: &Line, place: usize, times: &PassTimes, now: Timestamp) {
     let t = theme::tokens(ui);
     let y = line.bar.center().y;
@@ -114,7 +115,8 @@ fn in_words(pass: &PassTimes, now: Timestamp) -> String {
     format!("{}: {}, {lost}", pass.name, times.join(", "))
 }
 
-/// Below the bar: the events of a single pass, or the names of several, as far as there is room.
+/// Draws the events of a single pass or the names of several passes below the bar, as far as they
+/// fit.
 fn below(ui: &Ui, rect: Rect, line: &Line, passes: &[PassTimes]) {
     let t = theme::tokens(ui);
     let words: Vec<(&str, Timestamp)> = match passes {
@@ -142,7 +144,7 @@ fn below(ui: &Ui, rect: Rect, line: &Line, passes: &[PassTimes]) {
     }
 }
 
-/// Takes the moment that the operator goes to.
+/// Handles the time that the operator jumps to.
 fn moment(ui: &Ui, line: &Line, replay: &Replayed, commands: &mut Vec<UiCommand>) -> Response {
     let place = line.bar.expand2(vec2(0.0, 8.0));
     let response = ui.interact(place, id(), Sense::click_and_drag());
@@ -150,7 +152,7 @@ fn moment(ui: &Ui, line: &Line, replay: &Replayed, commands: &mut Vec<UiCommand>
     response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, &words));
     let requested = response.interact_pointer_pos().map(|position| line.axis.time(position.x));
     if response.has_focus() {
-        // The arrows move the moment, not the focus.
+        // The arrow keys move the time, not the focus.
         let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
         ui.memory_mut(|memory| memory.set_focus_lock_filter(id(), filter));
     }

@@ -1,4 +1,4 @@
-//! The table of what would explain the error.
+//! The table of possible causes of the error.
 
 use maud::{Markup, html};
 

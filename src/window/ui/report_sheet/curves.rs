@@ -16,17 +16,17 @@ use crate::{
     },
 };
 
-/// The curves, in points of the paper.
+/// Size of the curves, points on paper.
 const WIDTH: f64 = 539.0;
 const HEIGHT: f64 = 255.0;
 const TOP: f64 = 8.0;
-/// Room for the numbers at the left, and for words at the right.
+/// Room for the numbers at the left, and for words at the right, points on paper.
 const NUMBERS: f64 = 30.0;
 const WORDS: f64 = 62.0;
 const DIRECTION: f64 = 62.0;
 const ERROR: f64 = 92.0;
 const GAP_S: f64 = 10.0;
-/// Most minutes that are named below the curves.
+/// Max number of labelled minutes below the curves.
 const MAX_MINUTES: i64 = 12;
 
 /// A plot: a range of values over the time of the pass.
@@ -34,7 +34,7 @@ struct Plot {
     axis: TimeAxis,
     top: f64,
     height: f64,
-    /// Values at the bottom and at the top.
+    /// Values at the bottom and at the top of the plot, degrees.
     values: [f64; 2],
 }
 
@@ -49,7 +49,7 @@ impl Plot {
         self.top + (1.0 - part) * self.height
     }
 
-    /// A line across the plot with its number.
+    /// Returns a line across the plot with its number.
     fn line(&self, value: f64, decimals: usize) -> Markup {
         let y = self.y(value);
         let number = format::number(value, decimals);
@@ -60,7 +60,7 @@ impl Plot {
     }
 }
 
-/// Words at the right of a plot.
+/// Returns words at the right of a plot.
 fn note(y: f64, words: &str) -> Markup {
     plot::text("", [WIDTH - WORDS + 5.0, y], words)
 }
@@ -138,7 +138,7 @@ fn errors(plot: &Plot, half_beam_deg: f64, opened: &OpenedPass) -> Markup {
     }
 }
 
-/// The full minutes below the last plot.
+/// Returns the full minutes below the last plot.
 fn times(plot: &Plot) -> Markup {
     let minutes = plot.axis.seconds() / 60.0;
     let every = (minutes / MAX_MINUTES as f64).ceil().max(1.0) as i64;

@@ -1,4 +1,4 @@
-//! Conditions of the track, beside the path.
+//! Conditions of the track, next to the path.
 
 use maud::{Markup, html};
 

@@ -15,7 +15,7 @@ use crate::{
     },
 };
 
-/// The plot, in points of the paper.
+/// Size of the plot, points on paper.
 const SIZE: [f64; 2] = [262.0, 238.0];
 const RADIUS: f64 = 104.0;
 const CENTRE: [f64; 2] = [131.0, 119.0];
@@ -62,7 +62,7 @@ pub(super) fn html(opened: &OpenedPass) -> Markup {
     section("path", "Path", &recorded_track::enlargement(factor), &content)
 }
 
-/// The place of the antenna, with its error enlarged; within the circle.
+/// Returns the place of the antenna with its error enlarged, within the circle.
 fn measured_at(sky: Sky, point: &TrackPoint, factor: u16) -> [f64; 2] {
     let [start, end] = [point.satellite, point.antenna].map(|direction| sky.point(direction));
     let enlarged = |start: f64, end: f64| start + (end - start) * f64::from(factor);
@@ -72,12 +72,13 @@ fn measured_at(sky: Sky, point: &TrackPoint, factor: u16) -> [f64; 2] {
     [sky.centre[0] + x / out, sky.centre[1] + y / out]
 }
 
-/// Ticks across both paths at full minutes: outwards on the predicted one, inwards on the measured.
+/// Returns ticks across both paths at full minutes: outward on the predicted path, inward on the
+/// measured path.
 fn minutes(sky: Sky, opened: &OpenedPass, factor: u16) -> Vec<[[f64; 2]; 2]> {
     let begins_minute = |before: jiff::Timestamp, time: jiff::Timestamp| {
         before.as_second().div_euclid(60) != time.as_second().div_euclid(60)
     };
-    // The unit vector to the left of the way, on paper.
+    // The unit vector points to the left of the path, on paper.
     let left = |[ax, ay]: [f64; 2], [bx, step]: [f64; 2]| {
         let length = (bx - ax).hypot(step - ay).max(1e-9);
         [(step - ay) / length, -(bx - ax) / length]

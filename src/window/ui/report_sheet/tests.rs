@@ -21,8 +21,8 @@ const ISS: u32 = 25_544;
 const HALF_BEAM_DEG: f64 = 0.5;
 const HOSTILE: &str = "<&\"'>]]>\u{0}\u{1b}[2J\u{202e}\u{ffff} \u{1f6f0}漢字漢字 ";
 
-/// A high pass of the ISS by an antenna that was `late_s` late, measured at the seconds that
-/// `is_measured` keeps.
+/// Returns a high pass of the ISS by an antenna that was `late_s` late. It has measurements at the
+/// seconds that `is_measured` keeps.
 fn opened(late_s: f64, is_measured: impl Fn(u32) -> bool) -> OpenedPass {
     let catalog = bundled().unwrap();
     let elements = catalog.get(ISS).unwrap().clone();
@@ -117,7 +117,7 @@ fn page(opened: &OpenedPass) -> String {
     html(opened, add_seconds(opened.pass.report.end, 600.0))
 }
 
-/// Points of the lines of what was measured over the sky.
+/// Counts the points of the measured lines over the sky.
 fn measured(page: &str) -> usize {
     let lines = page.split("<polyline class=\"thick measured\" points=\"").skip(1);
     lines.map(|line| line.split('"').next().unwrap().split(' ').count()).sum()

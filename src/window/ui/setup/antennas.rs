@@ -1,4 +1,4 @@
-//! The step about the antennas: a card for each.
+//! The set-up step for the antennas, with a card for each.
 
 use egui::{
     Align, Layout, Response, RichText, Role, Sense, Ui, WidgetInfo, style::ScrollAnimation, vec2,
@@ -92,7 +92,7 @@ pub(super) fn show(
     }
 }
 
-/// Draws a card; returns `true` when the antenna is to be removed.
+/// Draws a card. Returns `true` when the operator removes the antenna.
 fn one(
     ui: &mut Ui,
     model: &Model,
@@ -164,14 +164,14 @@ fn one(
     if let Some(LinkTestStage::Done { time, .. }) = test.map(|test| &test.stage)
         && is_news(ui, id, *time)
     {
-        // It may lie below what is in sight, with a warning that nobody should miss.
+        // The answer may lie below the visible part and may contain an important warning.
         let answer = ui.min_rect().with_min_y(top);
         ui.scroll_to_rect_animation(answer, None, ScrollAnimation::none());
     }
     is_removed
 }
 
-/// The command that tests the link of an antenna.
+/// Returns the command that tests the link of an antenna.
 pub(super) fn test_of(antenna: &Antenna) -> UiCommand {
     UiCommand::Station(contract::Command::TestLink(Box::new(antenna.clone())))
 }
@@ -186,8 +186,8 @@ fn is_news(ui: &Ui, antenna: AntennaId, time: Timestamp) -> bool {
     })
 }
 
-/// A button with a longer accessible name. It keeps the focus when others come and go before
-/// it.
+/// Draws a button with a longer accessible name. The button keeps the focus when other buttons
+/// appear or disappear before it.
 fn named(
     ui: &mut Ui,
     button: Button<'_>,

@@ -1,5 +1,5 @@
-//! The station as typed so far. It rests on the draft of Preferences, of which the steps show a
-//! part.
+//! The station as entered so far. It builds on the draft of Preferences; the steps show a part of
+//! it.
 
 use super::{Step, antennas};
 use crate::{
@@ -15,25 +15,25 @@ use crate::{
     },
 };
 
-/// Number of the fields of the site, which are the first of their form.
+/// Number of fields of the site, which come first in the form.
 pub(super) const SITE_FIELDS: usize = 5;
-/// Number of those that nobody can know beforehand: name, latitude, longitude and altitude.
+/// Number of fields that have no default: name, latitude, longitude and altitude.
 const UNKNOWN_FIELDS: usize = 4;
 
 pub(super) struct SetupDraft {
     pub(super) form: Draft,
-    /// As typed.
+    /// The entered locator.
     pub(super) locator: String,
     pub(super) favourites: Favourites,
     proposed: Favourites,
-    /// The antenna whose address is to be typed now.
+    /// The antenna whose address the operator has to enter.
     pub(super) wants_address: Option<AntennaId>,
-    /// The antenna whose address has the keyboard focus.
+    /// The antenna whose address field has the keyboard focus.
     pub(super) typed_address: Option<AntennaId>,
 }
 
 impl SetupDraft {
-    /// An empty form; `station` gives what can be proposed.
+    /// Creates an empty form; `station` provides the proposed values.
     pub(super) fn new(station: Station) -> Self {
         let mut form = Draft::new(&station);
         for field in form.ground.fields.iter_mut().take(UNKNOWN_FIELDS) {
@@ -56,7 +56,7 @@ impl SetupDraft {
         is_edited || !self.form.antennas.is_empty() || self.favourites != self.proposed
     }
 
-    /// Proposes the site of the demonstration.
+    /// Fills in the site of the demonstration.
     pub(super) fn skip_site(&mut self) {
         self.form.ground.reset(SITE_FIELDS);
         self.locator.clear();
@@ -68,7 +68,7 @@ impl SetupDraft {
         }
     }
 
-    /// Standings of the fields of the site. An empty field is not wrong yet.
+    /// Returns the state of each field of the site. An empty field is not invalid yet.
     pub(super) fn site_standings(&self) -> Vec<Standing> {
         let mut standings = self.form.ground_standings();
         standings.truncate(SITE_FIELDS);
@@ -80,7 +80,7 @@ impl SetupDraft {
         standings
     }
 
-    /// Name and site, once all of them are right.
+    /// Returns name and site if all their fields are valid.
     pub(super) fn site(&self) -> Option<(String, Site)> {
         let (ground, standings) = self.form.ground.read();
         if standings.iter().take(SITE_FIELDS).any(|standing| standing.problem.is_some()) {
@@ -90,12 +90,12 @@ impl SetupDraft {
         Some((station.name, station.site))
     }
 
-    /// The place, also while the rest is not right yet.
+    /// Returns the location, even while other fields are invalid.
     pub(super) fn place(&self) -> Option<Site> {
         self.form.place()
     }
 
-    /// The name as typed, or that of the make while there is none.
+    /// Returns the entered name, or the name of the make if the field is empty.
     pub(super) fn antenna_name(&self, index: usize) -> String {
         let Some(antenna) = self.form.antennas.get(index) else { return String::new() };
         let typed = antenna.read().0;
@@ -106,15 +106,15 @@ impl SetupDraft {
         }
     }
 
-    /// Tests the link to the address that has the focus, if it has not been tested. Returns `true` while
-    /// the step waits for that test or for an address that can be used.
+    /// Tests the link to the address that has the focus, unless it was tested. Returns `true` while
+    /// the step waits for that test or for a valid address.
     pub(super) fn test_typed(&self, model: &Model, commands: &mut Vec<UiCommand>) -> bool {
         let mut antennas = self.form.antennas.iter();
         let typed = antennas
             .position(|typed_antenna| Some(typed_antenna.before().id) == self.typed_address);
         let Some(index) = typed else { return false };
         let antenna = self.form.antenna(index);
-        // A question may take the panel from somebody at the unit: its button alone asks.
+        // A test may take the panel from a person at the unit, so only the button starts it.
         if antenna
             .as_ref()
             .is_some_and(|other| other.connection.variant().capabilities.waits_for_word)
@@ -142,7 +142,7 @@ impl SetupDraft {
         !(0..self.form.antennas.len()).all(is_tested)
     }
 
-    /// Antennas whose units told their place, with it.
+    /// Returns the antennas whose units reported a position, with the position.
     pub(super) fn places(&self, model: &Model) -> Vec<(String, Place)> {
         let pair = |index: usize| {
             let LinkTestStage::Done { finding: LinkFinding::Reached { state, .. }, .. } =
@@ -155,20 +155,21 @@ impl SetupDraft {
         (0..self.form.antennas.len()).filter_map(pair).collect()
     }
 
-    /// Distance of the typed place from that of the first unit that told one.
+    /// Returns the distance between the entered site and the position of the first unit that
+    /// reported one, km.
     pub(super) fn off_the_told_km(&self, model: &Model) -> Option<(String, f64)> {
         let (name, place) = self.places(model).into_iter().next()?;
         let site = self.place()?;
         Some((name, place.km_from(site)))
     }
 
-    /// The station, if all of it is right.
+    /// Returns the station if all of it is valid.
     pub(super) fn station(&self) -> Option<Station> {
         let station = self.form.read()?;
         Some(Station { favourites: self.favourites.clone(), ..station })
     }
 
-    /// Why the operator cannot go on from `step`.
+    /// Returns the reason why the operator cannot continue from `step`.
     pub(super) fn hindrance(&self, step: Step, model: &Model) -> Option<String> {
         match step {
             Step::Site => self.site_hindrance(),

@@ -1,4 +1,4 @@
-//! The step about the elements: what is in use, and the form for a source.
+//! The set-up step for the elements: the elements in use, and the form for a source.
 
 use egui::{RichText, Ui};
 

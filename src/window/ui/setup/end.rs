@@ -1,4 +1,4 @@
-//! The end: what is written, and what happens then.
+//! The last step of the set-up: the file to write, and the effects of writing it.
 
 use egui::{RichText, Ui};
 
@@ -45,8 +45,8 @@ pub(super) fn show(ui: &mut Ui, model: &Model, draft: &SetupDraft, state: &Setup
     }
 }
 
-/// Sentences about the links to the antennas: those that Azel opens, and those that wait for
-/// Connect.
+/// Returns sentences about the links to the antennas: links that Azel opens, and links that wait
+/// for Connect.
 fn links(draft: &SetupDraft) -> Vec<String> {
     let (mut opened, mut waiting) = (Vec::new(), Vec::new());
     for (index, antenna) in draft.form.antennas.iter().enumerate() {

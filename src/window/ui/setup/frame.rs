@@ -24,17 +24,17 @@ const SO_FAR: f32 = 344.0;
 const STRIP: f32 = 48.0;
 const FOOT: f32 = 72.0;
 const LOW_FOOT: f32 = 52.0;
-/// Below this height of the view the foot is low.
+/// View height below which the foot is low, points.
 const LOW_BELOW: f32 = 640.0;
 const STEP: f32 = 80.0;
 const RING: f32 = 13.0;
 
-/// Where the parts are.
+/// Places of the parts of the view.
 pub(super) struct Panels {
-    /// The steps: a column, or a strip in a narrow view.
+    /// Place of the steps: a column, or a strip in a narrow view.
     steps: Rect,
     is_strip: bool,
-    /// The step and its buttons.
+    /// Places of the step and its buttons.
     pub(super) middle: (Rect, Rect),
     pub(super) right: Option<Rect>,
 }
@@ -51,7 +51,7 @@ pub(super) fn split(rect: Rect) -> Panels {
     Panels { steps, is_strip: false, middle: over_foot(middle), right: Some(right) }
 }
 
-/// Shows the list of steps. Returns the one that was clicked.
+/// Shows the list of steps. Returns the clicked step.
 pub(super) fn show_steps(
     ui: &Ui,
     panels: &Panels,
@@ -69,7 +69,7 @@ pub(super) fn show_steps(
     }
 }
 
-/// The steps below each other, each with what it came to.
+/// Shows the steps in a column, each with its result.
 fn column(
     ui: &Ui,
     rect: Rect,
@@ -111,7 +111,7 @@ fn column(
     clicked
 }
 
-/// The steps as numbers in one line, and how much is ready.
+/// Shows the steps as numbers in one line, and the number of ready parts.
 fn strip(
     ui: &Ui,
     rect: Rect,
@@ -145,8 +145,8 @@ fn strip(
     clicked
 }
 
-/// Draws the background of a step; returns `true` when it was clicked. A source that is `unadded`
-/// locks the other steps, as it does Next.
+/// Draws the background of a step. Returns `true` when the operator clicks it. An `unadded` source
+/// locks the other steps and Next.
 fn entry(
     ui: &Ui,
     row: Rect,
@@ -205,7 +205,7 @@ fn show_ring(ui: &Ui, position: egui::Pos2, step: Step, passed: Passed, state: &
     }
 }
 
-/// Result of a step so far.
+/// Returns the current result of a step.
 fn detail(step: Step, model: &Model, draft: &SetupDraft, state: &SetupState) -> String {
     match step {
         Step::Site => match draft.site() {
@@ -234,7 +234,7 @@ fn detail(step: Step, model: &Model, draft: &SetupDraft, state: &SetupState) -> 
     }
 }
 
-/// Back, skip and next, with what hinders the last.
+/// Shows the buttons Back, Skip and Next, with the reason why Next is locked.
 pub(super) fn show_foot(
     ui: &Ui,
     rect: Rect,

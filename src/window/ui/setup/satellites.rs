@@ -1,4 +1,5 @@
-//! The step about the satellites: groups and single names of the catalog, and the chosen ones.
+//! The set-up step for the satellites: groups and single names of the catalog, and the chosen
+//! satellites.
 
 use std::sync::Arc;
 
@@ -19,7 +20,7 @@ use crate::{
     },
 };
 
-/// A larger group is no choice.
+/// Max number of satellites in a group that the step offers.
 const LARGEST_GROUP: usize = 200;
 const LIST: f32 = 300.0;
 const ROW: f32 = 26.0;
@@ -53,7 +54,7 @@ pub(super) fn show(
     });
 }
 
-/// The groups that are small enough to follow.
+/// Shows the groups that are small enough to follow.
 fn groups(ui: &mut Ui, catalog: &Catalog, draft: &mut SetupDraft) {
     let t = theme::tokens(ui);
     let fit = |(_, count): &(&str, usize)| (1..=LARGEST_GROUP).contains(count);
@@ -151,13 +152,13 @@ fn list(
     mut one: impl FnMut(&mut Ui, u32, &str),
 ) {
     ui.spacing_mut().item_spacing.y = 0.0;
-    // Whole rows, so that Tab meets none that cannot be seen.
+    // The list shows only whole rows, so that Tab reaches no hidden row.
     let height = (ui.available_height() / ROW).floor() * ROW;
     let area = ScrollArea::vertical().id_salt(salt).max_height(height).auto_shrink(false);
     area.show_rows(ui, ROW, objects.len(), |ui, range| {
         for (number, name) in objects.get(range).unwrap_or_default() {
             let row = Rect::from_min_size(ui.cursor().min, vec2(ui.available_width(), ROW));
-            // One row more than can be seen is asked for.
+            // The scroll area requests one row more than is visible.
             if ui.clip_rect().intersect(row).height() > 4.0 {
                 one(ui, *number, name);
             }
@@ -165,7 +166,7 @@ fn list(
     });
 }
 
-/// Draws an object with a button; returns `true` when that was clicked.
+/// Draws an object with a button. Returns `true` when the operator clicks the button.
 fn row(ui: &mut Ui, number: u32, name: &str, enabled: bool, word: &str) -> bool {
     let t = theme::tokens(ui);
     let size = vec2(ui.available_width(), ROW);

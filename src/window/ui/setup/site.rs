@@ -1,4 +1,4 @@
-//! The step about the site.
+//! The set-up step for the site.
 
 use egui::{Response, RichText, Ui};
 
@@ -19,9 +19,9 @@ use crate::{
 };
 
 const CARD: f32 = 638.0;
-/// Width of the field of the locator.
+/// Width of the field of the locator, points.
 const LOCATOR: f32 = 240.0;
-/// Decimals of a degree that a locator and a unit give.
+/// Number of decimals, degrees, of a position from a locator or a unit.
 const OF_LOCATOR: usize = 4;
 const OF_UNIT: usize = 5;
 
@@ -66,7 +66,7 @@ fn fields(ui: &mut Ui, draft: &mut SetupDraft, range: std::ops::Range<usize>) ->
     form::fields(ui, "site", fields, standings)
 }
 
-/// The locator as a field, which fills latitude and longitude.
+/// Shows the locator field, which fills latitude and longitude.
 fn locator(ui: &mut Ui, draft: &mut SetupDraft, unit: DistanceUnit) {
     let t = theme::tokens(ui);
     let hint = "such as KN41ob, or type degrees";
@@ -78,7 +78,7 @@ fn locator(ui: &mut Ui, draft: &mut SetupDraft, unit: DistanceUnit) {
         draft.put_place(latitude.degrees(), longitude.degrees(), OF_LOCATOR);
     }
     let (words, colour) = match read_locator(&draft.locator) {
-        // The line stays, so that no field moves under the pointer.
+        // The line always takes its room, so that no field moves under the pointer.
         _ if draft.locator.trim().is_empty() => {
             ("A Maidenhead locator fills in latitude and longitude.".to_owned(), t.t3)
         }

@@ -1,4 +1,4 @@
-//! The station as it would be now: each part and its state.
+//! The station as entered so far: each part and its state.
 
 use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 
@@ -22,7 +22,6 @@ use crate::{
 
 const ROW: f32 = 28.0;
 
-/// A part of the station.
 pub(super) struct Part {
     pub(super) name: String,
     pub(super) tone: Tone,
@@ -33,7 +32,7 @@ fn part(name: impl Into<String>, (tone, state): (Tone, String)) -> Part {
     Part { name: name.into(), tone, state }
 }
 
-/// All parts, in the order of the steps.
+/// Returns all parts in the order of the steps.
 pub(super) fn parts(model: &Model, draft: &SetupDraft, progress: Progress) -> Vec<Part> {
     let clock = match model.time_sync {
         TimeSync::Synchronised => (Tone::Good, "synchronised"),
@@ -56,7 +55,7 @@ pub(super) fn parts(model: &Model, draft: &SetupDraft, progress: Progress) -> Ve
     parts
 }
 
-/// Number of parts that are ready, such as "4 of 7".
+/// Returns the number of ready parts, such as "4 of 7".
 pub(super) fn ready(parts: &[Part]) -> String {
     let good = parts.iter().filter(|part| part.tone == Tone::Good).count();
     format!("{good} of {}", parts.len())
@@ -81,7 +80,8 @@ pub(super) fn satellites(draft: &SetupDraft) -> (Tone, String) {
     }
 }
 
-/// The greatest age among the elements of the chosen satellites, or how many there are for none.
+/// Describes the max age of the elements of the chosen satellites, or the number of satellites
+/// without elements.
 pub(super) fn elements(model: &Model, draft: &SetupDraft) -> (Tone, String) {
     let catalog = match &model.catalog {
         CatalogState::Loading => return (Tone::Plain, "being read".to_owned()),

@@ -1,6 +1,6 @@
-//! The steps, and how far the operator has come.
+//! The steps of the set-up, and the progress of the operator.
 
-/// A step of the set-up.
+/// A step of the set-up of a station.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Step {
     #[default]
@@ -8,12 +8,12 @@ pub enum Step {
     Antennas,
     Satellites,
     Elements,
-    /// Shows what is written, and writes it.
+    /// Summary of the file to write, with the button that writes it.
     End,
 }
 
 impl Step {
-    /// The steps that can be skipped.
+    /// Steps that the operator can skip.
     pub(super) const NUMBERED: [Self; 4] =
         [Self::Site, Self::Antennas, Self::Satellites, Self::Elements];
     const ALL: [Self; 5] =
@@ -41,7 +41,7 @@ impl Step {
         }
     }
 
-    /// Title, and what the step is for.
+    /// Returns the title and the purpose of the step.
     pub(super) fn title(self) -> (&'static str, &'static str) {
         let description = match self {
             Self::Site => {

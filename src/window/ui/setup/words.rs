@@ -2,18 +2,18 @@
 
 use crate::{astro::LocatorSquare, model::DistanceUnit, ui::format};
 
-/// Length of a degree of latitude.
+/// Length of a degree of latitude, km.
 const KM_A_DEGREE: f64 = 111.2;
 
 pub(super) fn missing(labels: &[&str]) -> String {
     let verb = if labels.len() == 1 { "is" } else { "are" };
-    // The commas of a label would be read as those of the list.
+    // Commas in a label would look like commas of the list.
     let before_comma = |label: &&str| label.split(',').next().unwrap_or_default().to_owned();
     let names: Vec<String> = labels.iter().map(before_comma).collect();
     format!("Site: {} {verb} missing.", format::list(&names))
 }
 
-/// Size of the square of a locator.
+/// Describes the size of a locator square.
 pub(super) fn square(square: LocatorSquare, unit: DistanceUnit) -> String {
     let height_km = square.height_deg * KM_A_DEGREE;
     let width_km = 2.0 * height_km * square.centre.latitude.degrees().to_radians().cos();

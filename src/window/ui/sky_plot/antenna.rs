@@ -11,20 +11,21 @@ use super::{
 };
 use crate::ui::{text, tokens::Tokens, widgets::paint};
 
-/// Diameter of the smallest ring that is visible around a satellite, points.
+/// Min diameter of the ring around a satellite, points.
 const SMALLEST_RING: f32 = 22.0;
 /// Side of the box of the cross-hair that labels keep clear, points.
 const CROSS_HAIR: f32 = 56.0;
 /// Distance of the notes on a lost link from the centre, points.
 const NOTE: f32 = 14.0;
 
-/// Diameter of the commanded ring: the beam width, but always large enough to see.
+/// Returns the diameter of the commanded ring, points: the beam width, but always large enough to
+/// see.
 fn ring(dome: Dome, scene: &SkyScene<'_>) -> f32 {
-    // NaN gives the smallest ring.
+    // A NaN beam width gives the smallest ring.
     dome.length(scene.beam_width).max(SMALLEST_RING)
 }
 
-/// The circles that the marks of the antenna occupy: centre and radius.
+/// Returns the circles that the marks of the antenna occupy: centre and radius.
 fn circles(dome: Dome, scene: &SkyScene<'_>) -> impl Iterator<Item = (Pos2, f32)> {
     let ring = ring(dome, scene) / 2.0;
     let measured = scene.measured.map(|measured| (measured.direction, CROSS_HAIR / 2.0));
@@ -49,8 +50,8 @@ pub(super) fn reserve(dome: Dome, scene: &SkyScene<'_>, labels: &mut Labels<'_>)
     }
 }
 
-/// Distance of a label from its mark, in points. Clears the antenna if `mark` lies in one of
-/// the antenna's circles; otherwise `default`.
+/// Returns the distance of a label from its mark, points. The label clears a circle of the antenna
+/// that contains `mark`; otherwise the distance is `default`.
 pub(super) fn clearance(dome: Dome, scene: &SkyScene<'_>, mark: Pos2, default: f32) -> f32 {
     circles(dome, scene)
         .map(|(position, radius)| (position.distance(mark), radius))
@@ -59,8 +60,8 @@ pub(super) fn clearance(dome: Dome, scene: &SkyScene<'_>, mark: Pos2, default: f
         .fold(default, f32::max)
 }
 
-/// Sides of a label beside `mark`, and its distance: on the side away from the antenna it clears
-/// the antenna's circles where it is nearest to its own mark.
+/// Returns the sides of a label at `mark`, and its distance. The label clears the circles of the
+/// antenna on the side away from the antenna, close to its mark.
 pub(super) fn beam_label_place(
     dome: Dome,
     scene: &SkyScene<'_>,
@@ -124,7 +125,7 @@ mod tests {
             ..testing::empty()
         };
         assert!((clearance(dome, &scene(0.88), mark, 8.0) - 12.0).abs() < 1e-3);
-        // 20 degrees are 60 points.
+        // A beam of 20 degrees has 60 points.
         assert!((clearance(dome, &scene(20.0), mark, 8.0) - 31.0).abs() < 1e-3);
         assert!((clearance(dome, &scene(20.0), far, 8.0) - 8.0).abs() < 1e-3);
         assert!((clearance(dome, &scene(f64::NAN), mark, 8.0) - 12.0).abs() < 1e-3);

@@ -14,30 +14,30 @@ const DIAMETER: f32 = 104.0;
 const EDGE: f32 = 14.0;
 /// Height of the caption, points.
 const CAPTION: f32 = 20.0;
-/// Room that the caption needs beside the view, points.
+/// Room that the caption needs next to the view, points.
 const CAPTION_BESIDE: f32 = 24.0;
 
-/// The square of the view in the lower right corner of the plot.
+/// Returns the square of the view in the lower right corner of the plot.
 pub(super) fn place(rect: Rect) -> Rect {
     let corner = rect.right_bottom() - vec2(EDGE, EDGE + CAPTION);
     Rect::from_min_size(corner - Vec2::splat(DIAMETER), Vec2::splat(DIAMETER))
 }
 
-/// The view with its caption, which labels avoid.
+/// Returns the view with its caption, which labels avoid.
 pub(super) fn reserved(rect: Rect) -> Rect {
     let view = place(rect).expand(4.0);
     // The caption is wider than the view.
     Rect::from_min_max(view.min - vec2(CAPTION_BESIDE, 0.0), rect.right_bottom())
 }
 
-/// Half the width of the view: 1°, or one and a half beam widths for a beam that would
-/// fill more than half of that.
+/// Returns half the width of the view, degrees: 1, or one and a half beam widths for a beam wider
+/// than 1°.
 pub(super) fn half_view_deg(beam_width_deg: f64) -> f64 {
     if beam_width_deg.is_finite() && beam_width_deg > 1.0 { 1.5 * beam_width_deg } else { 1.0 }
 }
 
-/// Measured minus predicted in degrees: across (azimuth times the cosine of
-/// the elevation) and in elevation.
+/// Returns measured minus predicted in degrees: across (azimuth times the cosine of the elevation)
+/// and in elevation.
 pub(super) fn error_deg(measured: AzEl, predicted: AzEl) -> (f64, f64) {
     let across = (measured.azimuth - predicted.azimuth).wrapped_180().degrees()
         * predicted.elevation.radians().cos();
@@ -58,7 +58,7 @@ pub(super) fn paint(painter: &Painter, rect: Rect, scene: &SkyScene<'_>, t: &Tok
         painter.line_segment([centre - arm, centre + arm], Stroke::new(1.0, t.grid));
     }
 
-    // Elevation is up. Points outside the view are drawn at its edge.
+    // Elevation increases upwards. Points outside the view move to its edge.
     let point = |across: f32, up: f32| -> Option<Pos2> {
         let offset = vec2(across, -up) * scale;
         let shown = if offset.length() > radius { offset.normalized() * radius } else { offset };

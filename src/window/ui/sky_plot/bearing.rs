@@ -1,5 +1,5 @@
-//! The mark of an antenna with unknown elevation, or at a limit of its azimuth: a line from the
-//! zenith to the rim in place of a point.
+//! The mark of an antenna with unknown elevation, or at a limit of its azimuth. It is a line from
+//! the zenith to the rim in place of a point.
 
 use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, Vec2};
 
@@ -20,13 +20,13 @@ const SIDE: f32 = 12.0;
 const DOTS: (f32, f32) = (2.0, 6.0);
 const DASHES: (f32, f32) = (4.0, 3.0);
 
-/// From the zenith to the rim; none when the azimuth is not finite.
+/// Returns the ends of the line, from the zenith to the rim; `None` if the azimuth is not finite.
 fn ends(dome: Dome, azimuth: Angle) -> Option<[Pos2; 2]> {
     let direction = outward(azimuth.radians() as f32);
     azimuth.is_finite().then(|| [dome.centre, dome.centre + direction * dome.radius])
 }
 
-/// The triangle at the rim, with its tip outwards.
+/// Returns the centre and the corners of the triangle at the rim, with its tip outwards.
 fn triangle(dome: Dome, azimuth: Angle) -> Option<(Pos2, Vec<Pos2>)> {
     let [_, rim] = ends(dome, azimuth)?;
     let direction = outward(azimuth.radians() as f32);
@@ -35,19 +35,19 @@ fn triangle(dome: Dome, azimuth: Angle) -> Option<(Pos2, Vec<Pos2>)> {
     Some((rim - direction * (SIDE / 2.0), vec![rim, base + sideways, base - sideways]))
 }
 
-/// The measured azimuth or the limit, such as "043°" or "at CCW limit".
+/// Returns the measured azimuth or the limit, such as "043°" or "at CCW limit".
 pub(super) fn place(bearing: &Bearing<'_>) -> Option<String> {
     let azimuth = || bearing.measured.map(|azimuth| format::azimuth(azimuth.degrees()));
     bearing.limit.map(|limit| format!("at {limit}")).or_else(azimuth)
 }
 
-/// Label, such as "Genius 043°" or "RC2000C at CCW limit".
+/// Returns the label, such as "Genius 043°" or "RC2000C at CCW limit".
 pub(super) fn words(bearing: &Bearing<'_>) -> String {
     let lost = bearing.lost.map_or_else(String::new, |age| format!(" ? {age}"));
     format!("{} {}{lost}", bearing.name, place(bearing).unwrap_or_default())
 }
 
-/// The centre of the mark of the measured azimuth.
+/// Returns the centre of the mark of the measured azimuth.
 pub(super) fn mark(dome: Dome, bearing: &Bearing<'_>) -> Option<Pos2> {
     triangle(dome, bearing.measured?).map(|(middle, _)| middle)
 }
@@ -80,7 +80,7 @@ pub(super) fn paint(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t: &Tok
     }
 }
 
-/// Paints the lines of one antenna; the one of the measured azimuth is `width` points wide.
+/// Paints the lines of one antenna; the line of the measured azimuth is `width` points wide.
 pub(super) fn paint_one(
     painter: &Painter,
     dome: Dome,

@@ -15,9 +15,9 @@ use crate::{
     ui::{format, text, tokens::Tokens, widgets::paint},
 };
 
-/// Other satellites below this elevation have no name, degrees.
+/// Elevation below which unselected satellites have no name, degrees.
 const LOWEST_NAME_DEG: f64 = 5.0;
-/// Below this distance from the beam the Sun's label shows the distance, degrees.
+/// Distance from the beam below which the label of the Sun shows the distance, degrees.
 const NEAR_BEAM_DEG: f64 = 5.0;
 
 /// Paints the Sun and the Moon and keeps labels away from them.
@@ -39,7 +39,7 @@ pub(super) fn sun_and_moon(
     }
 }
 
-/// Labels the Sun and the Moon, near the beam with the distance from it.
+/// Labels the Sun and the Moon, near the beam with their distance from it.
 pub(super) fn label_sun_and_moon(
     labels: &mut Labels<'_>,
     dome: Dome,
@@ -48,7 +48,7 @@ pub(super) fn label_sun_and_moon(
 ) {
     let live = scene.measured.filter(|measured| measured.lost.is_none());
     let beam = live.map(|measured| measured.direction).or(scene.commanded);
-    // The beam of now is no neighbour of the Sun of another time.
+    // The current beam has no relation to the Sun of another time.
     let beam = beam.filter(|_| scene.later.is_none());
     let bodies =
         [(Key::Sun, "Sun", scene.sun, 13.0, t.sun), (Key::Moon, "Moon", scene.moon, 9.0, t.moon)];
@@ -73,15 +73,15 @@ pub(super) fn label_sun_and_moon(
     }
 }
 
-/// A satellite above the horizon that is not selected, in the plot.
+/// An unselected satellite above the horizon, as the plot draws it.
 pub(super) struct Dot<'a> {
     pub(super) satellite: &'a OtherSatellite<'a>,
     pub(super) position: Pos2,
-    /// Its path of the next minutes.
+    /// Path over the next minutes.
     ahead: Vec<Pos2>,
 }
 
-/// The satellites that are not selected.
+/// Returns the satellites that are not selected.
 pub(super) fn dots<'a>(dome: Dome, others: &'a [OtherSatellite<'a>]) -> Vec<Dot<'a>> {
     let dots = others.iter().filter_map(|satellite| {
         let position = dome.visible(satellite.direction)?;

@@ -10,7 +10,7 @@ use crate::ui::{
     widgets::{check_box::CheckBox, close_key, paint},
 };
 
-/// In a plot below this height a button opens the legend, points.
+/// Plot height below which a button opens the legend, points.
 const LEGEND_HEIGHT: f32 = 500.0;
 const KEYHOLES: &str = "Keyholes";
 /// Height at the foot of a plot that the legend button takes, with its margins, points.
@@ -54,8 +54,8 @@ pub(super) fn upper_right(ui: &Ui, rect: Rect, layers: &mut Layers, t: &Tokens) 
     paint::text(ui, position, Align2::RIGHT_CENTER, words, text::small(), t.t2);
 }
 
-/// The rectangle of the legend, if nothing lies over it, the plot is high enough and the legend clears
-/// the disc.
+/// Returns the rectangle of the legend. `None` if something covers it, the plot is too low or the
+/// legend would overlap the disc.
 fn legend_place(
     rect: Rect,
     dome: Dome,
@@ -71,8 +71,8 @@ fn legend_place(
     is_shown.then_some(place)
 }
 
-/// Shows the legend in the lower left corner, in a magnified sky on a ground of its own, or the
-/// button that opens it.
+/// Shows the legend in the lower left corner, or the button that opens it. In a magnified sky the
+/// legend has a background.
 pub(super) fn lower_left(
     ui: &Ui,
     rect: Rect,
@@ -117,7 +117,7 @@ fn icon_button(ui: &Ui, salt: &str, rect: Rect, name: &str, t: &Tokens) -> Respo
     response
 }
 
-/// The boxes in the corners that labels avoid.
+/// Returns the boxes in the corners that labels avoid.
 pub(super) fn reserved(
     rect: Rect,
     dome: Dome,

@@ -6,27 +6,27 @@ use crate::astro::{Angle, AzEl};
 
 /// Room around the disc for the azimuth names, points.
 const MARGIN: f32 = 26.0;
-/// Largest radius of the disc, points.
+/// Max radius of the disc, points.
 const MAX_RADIUS: f32 = 420.0;
 
 /// The disc of the sky: zenith at the centre, horizon at the rim, north up and east right.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::ui) struct Dome {
-    /// The zenith.
+    /// Centre of the disc, the zenith.
     pub(in crate::ui) centre: Pos2,
     /// Radius of the horizon, points.
     pub(in crate::ui) radius: f32,
 }
 
 impl Dome {
-    /// The largest disc that fits into `rect` with its rim labels.
+    /// Returns the largest disc that fits into `rect` with its rim labels.
     pub(in crate::ui) fn fitted(rect: Rect) -> Self {
         let radius = rect.width().min(rect.height()) / 2.0 - MARGIN;
         Self { centre: rect.center(), radius: radius.clamp(1.0, MAX_RADIUS) }
     }
 
-    /// The point of a direction; none if the direction is not finite. A direction below the
-    /// horizon lies outside the rim.
+    /// Returns the point of a direction; `None` if the direction is not finite. A direction below
+    /// the horizon lies outside the rim.
     pub(in crate::ui) fn point(&self, direction: AzEl) -> Option<Pos2> {
         let finite = direction.azimuth.is_finite() && direction.elevation.is_finite();
         finite.then(|| {
@@ -34,7 +34,7 @@ impl Dome {
         })
     }
 
-    /// The direction at a point; none outside the rim.
+    /// Returns the direction at a point; `None` outside the rim.
     pub(in crate::ui) fn direction(&self, position: Pos2) -> Option<AzEl> {
         let offset = position - self.centre;
         let from_zenith = f64::from(offset.length() / self.radius);
@@ -42,34 +42,35 @@ impl Dome {
         (from_zenith <= 1.0).then(|| AzEl::from_degrees(azimuth_deg, 90.0 * (1.0 - from_zenith)))
     }
 
-    /// The point of a direction; none below the horizon.
+    /// Returns the point of a direction; `None` below the horizon.
     pub(in crate::ui) fn visible(&self, direction: AzEl) -> Option<Pos2> {
         self.point(direction).filter(|_| direction.elevation_deg() >= 0.0)
     }
 
-    /// The points of a path, without directions that are not finite or below the horizon.
+    /// Returns the points of a path, without directions that are not finite or below the horizon.
     pub(in crate::ui) fn path(&self, directions: impl IntoIterator<Item = AzEl>) -> Vec<Pos2> {
         directions.into_iter().filter_map(|direction| self.visible(direction)).collect()
     }
 
-    /// The point at an azimuth in radians and an elevation in degrees.
+    /// Returns the point at an azimuth in radians and an elevation in degrees.
     pub(in crate::ui) fn point_at(&self, azimuth_rad: f32, elevation_deg: f32) -> Pos2 {
         self.centre + outward(azimuth_rad) * self.ring(elevation_deg)
     }
 
-    /// Radius of the ring of an elevation, points.
+    /// Returns the radius of the ring of an elevation, points.
     pub(in crate::ui) fn ring(&self, elevation_deg: f32) -> f32 {
         self.radius * (90.0 - elevation_deg) / 90.0
     }
 
-    /// Length of a small angle across the radius near the middle, points.
+    /// Returns the length of a small angle across the radius near the middle, points.
     pub(in crate::ui) fn length(&self, angle: Angle) -> f32 {
         self.radius * angle.degrees() as f32 / 90.0
     }
 
-    /// A rectangle with its corners pulled inside the rim; none if its centre lies outside.
+    /// Returns a rectangle with its corners pulled inside the rim; `None` if its centre lies
+    /// outside.
     pub(in crate::ui) fn clipped(&self, rect: Rect) -> Option<Vec<Pos2>> {
-        // Inside the line of the rim.
+        // The limit lies inside the line of the rim.
         let limit = self.radius - 1.0;
         let moved_inside = |point: Pos2| {
             let from_centre = point - self.centre;
@@ -91,18 +92,18 @@ impl Dome {
         rect.clamp(self.centre).distance(self.centre) < self.radius + 1.0
     }
 
-    /// The circle of `radius` points around the zenith, as a closed path.
+    /// Returns the circle of `radius` points around the zenith, as a closed path.
     pub(in crate::ui) fn circle(&self, radius: f32) -> Vec<Pos2> {
         circle(self.centre, radius)
     }
 }
 
-/// The unit vector on the screen towards an azimuth.
+/// Returns the unit vector on the screen towards an azimuth.
 pub(in crate::ui) fn outward(azimuth_rad: f32) -> Vec2 {
     vec2(azimuth_rad.sin(), -azimuth_rad.cos())
 }
 
-/// A circle as a closed path with vertices at most 3 points apart.
+/// Returns a circle as a closed path with vertices at most 3 points apart.
 pub(in crate::ui) fn circle(centre: Pos2, radius: f32) -> Vec<Pos2> {
     let steps = (std::f32::consts::TAU * radius / 3.0).ceil().clamp(24.0, 720.0) as u16;
     (0..=steps)
@@ -113,8 +114,8 @@ pub(in crate::ui) fn circle(centre: Pos2, radius: f32) -> Vec<Pos2> {
         .collect()
 }
 
-/// Dashes along the whole length of a path, each as its own line. Both
-/// lengths are in points and above zero.
+/// Returns dashes along the whole length of a path, each as a separate line. Both lengths are in
+/// points and above zero.
 pub(in crate::ui) fn dashes(path: &[Pos2], dash: f32, gap: f32) -> Vec<Vec<Pos2>> {
     let mut done = Vec::new();
     let mut current: Vec<Pos2> = path.first().copied().into_iter().collect();
@@ -146,7 +147,7 @@ pub(in crate::ui) fn dashes(path: &[Pos2], dash: f32, gap: f32) -> Vec<Vec<Pos2>
     done
 }
 
-/// The dashes of a path as shapes.
+/// Returns the dashes of a path as shapes.
 pub(in crate::ui) fn dashed(
     path: &[Pos2],
     dash: f32,
@@ -157,11 +158,11 @@ pub(in crate::ui) fn dashed(
     dashes(path, dash, gap).into_iter().map(|piece| Shape::line(piece, stroke)).collect()
 }
 
-/// Parallel lines at 45°, falling to the right, or rising if `rising`, clipped to a polygon
-/// of any form. `spacing` is in points, across the lines.
+/// Returns parallel lines at 45°, clipped to a polygon of any shape. The lines rise to the right if
+/// `rising`, otherwise they fall. `spacing` is in points, across the lines.
 pub(in crate::ui) fn hatch(polygon: &[Pos2], spacing: f32, rising: bool) -> Vec<[Pos2; 2]> {
     let side = if rising { 1.0 } else { -1.0 };
-    // Constant along each line of the hatch.
+    // The level is constant along each line of the hatch.
     let level = |point: Pos2| point.x + side * point.y;
     let step = spacing * std::f32::consts::SQRT_2;
     let levels = polygon.iter().map(|point| level(*point));
@@ -189,7 +190,7 @@ pub(in crate::ui) fn usable(rect: Rect) -> bool {
     rect.is_finite() && rect.width() > 2.0 * MARGIN && rect.height() > 2.0 * MARGIN
 }
 
-/// A point moved to the centre of its pixel, for sharp lines.
+/// Returns a point moved to the centre of its pixel, for sharp lines.
 pub(in crate::ui) fn sharp(point: Pos2) -> Pos2 {
     pos2(point.x.floor() + 0.5, point.y.floor() + 0.5)
 }
@@ -299,7 +300,7 @@ mod tests {
         assert!(hatch(&[], 5.0, true).is_empty());
         for rising in [false, true] {
             let lines = hatch(&square, 5.0, rising);
-            // The diagonal is 56.6 long.
+            // The diagonal is 56.6 points long.
             assert!((10..=12).contains(&lines.len()), "{}", lines.len());
             for [start, end] in lines {
                 assert!(outer.contains(start) && outer.contains(end));

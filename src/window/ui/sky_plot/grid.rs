@@ -21,7 +21,7 @@ const RINGS: [f32; 2] = [30.0, 60.0];
 const SPOKE_TOP_DEG: f32 = 87.0;
 /// Distance of the azimuth names from the rim, points.
 const NAMES: f32 = 15.0;
-/// Size of a name of three digits.
+/// Size of a name of three digits, points.
 const NAME_SIZE: Vec2 = vec2(22.0, 14.0);
 /// Spacing of the hatch of a keyhole, points.
 const HATCH: f32 = 5.0;
@@ -52,7 +52,7 @@ pub(in crate::ui) fn rings(painter: &Painter, dome: Dome, t: &Tokens) {
     }
 }
 
-/// Paints the numbers of the rings, where nothing else has a place.
+/// Paints the numbers of the rings at fixed places.
 pub(in crate::ui) fn ring_numbers(painter: &Painter, dome: Dome, t: &Tokens) {
     for elevation in RINGS {
         let position = dome.point_at(std::f32::consts::FRAC_PI_2, elevation);
@@ -63,7 +63,7 @@ pub(in crate::ui) fn ring_numbers(painter: &Painter, dome: Dome, t: &Tokens) {
     }
 }
 
-/// Places the numbers of the rings among labels: at the east, else on another spoke.
+/// Places the numbers of the rings among labels: at the east, or else on another spoke.
 pub(in crate::ui) fn label_rings(labels: &mut Labels<'_>, dome: Dome) {
     const SPOKES_DEG: [f32; 10] =
         [90.0, 270.0, 60.0, 120.0, 240.0, 300.0, 30.0, 150.0, 210.0, 330.0];
@@ -74,8 +74,8 @@ pub(in crate::ui) fn label_rings(labels: &mut Labels<'_>, dome: Dome) {
     }
 }
 
-/// Paints the rim with its ticks and names, and the ring of the minimum
-/// elevation. Returns the boxes of the names.
+/// Paints the rim with its ticks and names, and the ring of the minimum elevation. Returns the
+/// boxes of the names.
 pub(in crate::ui) fn rim(painter: &Painter, dome: Dome, minimum: Angle, t: &Tokens) -> Vec<Rect> {
     let elevation = minimum.degrees() as f32;
     if elevation > 0.0 && elevation < 90.0 {
@@ -99,7 +99,7 @@ pub(in crate::ui) fn rim(painter: &Painter, dome: Dome, minimum: Angle, t: &Toke
     (0..360).step_by(30).map(name_at).collect()
 }
 
-/// The boxes of the azimuth names, as far as their size is known without painting them.
+/// Returns the estimated boxes of the azimuth names, without painting them.
 pub(in crate::ui) fn name_boxes(dome: Dome) -> Vec<Rect> {
     let box_at = |azimuth_deg: u16| {
         let direction = outward(f32::from(azimuth_deg).to_radians());
@@ -132,7 +132,7 @@ pub(in crate::ui) fn keyholes(
     caps
 }
 
-/// The upper half of a circle on the sphere around a point of the horizon. Empty if the
+/// Returns the upper half of a circle on the sphere around a point of the horizon. Empty if the
 /// circle is not finite or has no size.
 pub(in crate::ui) fn cap(dome: Dome, azimuth: Angle, radius: Angle) -> Vec<Pos2> {
     if !(azimuth.is_finite() && radius.degrees() > 0.0 && radius.degrees() < 90.0) {
@@ -142,7 +142,7 @@ pub(in crate::ui) fn cap(dome: Dome, azimuth: Angle, radius: Angle) -> Vec<Pos2>
     let along =
         AzEl { azimuth: azimuth + Angle::from_degrees(90.0), elevation: Angle::ZERO }.to_enu();
     let (sin, cos) = radius.radians().sin_cos();
-    // Without the ends, which rounding could put below the rim.
+    // The arc omits its ends, which rounding could put below the rim.
     let arc = (1..30_u8).filter_map(|step| {
         let (up, side) = (f64::from(step) * 6.0).to_radians().sin_cos();
         let direction = along * side + glam::DVec3::Z * up;
@@ -164,7 +164,7 @@ mod tests {
     fn a_cap_reaches_its_radius_and_ends_at_the_rim() {
         let dome = Dome { centre: pos2(0.0, 0.0), radius: 270.0 };
         let outline = cap(dome, Angle::from_degrees(180.0), Angle::from_degrees(6.0));
-        // 6 degrees are 18 points; south is down.
+        // 6 degrees are 18 points; south is at the bottom.
         let top = outline.iter().map(|point| point.y).fold(f32::MAX, f32::min);
         assert!((top - (270.0 - 18.0)).abs() < 0.1, "{top}");
         for point in &outline {

@@ -14,7 +14,7 @@ use crate::{
     },
 };
 
-/// Distance between the points of an edge.
+/// Distance between the sampled points of an edge.
 const STEP: Angle = Angle::from_degrees(1.0);
 /// Spacing of the hatch of the margin, points.
 const HATCH: f32 = 5.0;
@@ -32,7 +32,7 @@ pub(in crate::ui) fn paint(painter: &Painter, dome: Dome, marks: &[KeepOutMark<'
             continue;
         }
         if points.len() > 2 {
-            // Even-odd rule: an area in both outlines is left out.
+            // With the even-odd rule, the area inside both outlines stays empty.
             let closed = points.iter().chain(points.first());
             let both_outlines: Vec<Pos2> =
                 closed.chain(&area).chain(area.first()).copied().collect();
@@ -59,18 +59,18 @@ pub(in crate::ui) fn words(
     visible.map(|(mark, area)| label(painter, dome, &area, mark.name, t)).collect()
 }
 
-/// The area of a zone above the horizon.
+/// Returns the area of a zone above the horizon.
 pub(in crate::ui) fn outline(dome: Dome, zone: &Zone) -> Vec<Pos2> {
     above_horizon(dome, zone.edges_sampled(STEP))
 }
 
-/// The line around a zone at the distance `margin`, above the horizon.
+/// Returns the line around a zone at the distance `margin`, above the horizon.
 fn margin(dome: Dome, zone: &Zone, margin: Angle) -> Vec<Pos2> {
     above_horizon(dome, zone.margin_sampled(margin, STEP))
 }
 
-/// The points of `directions`, those below the horizon moved to the rim. Empty if all are
-/// below it.
+/// Returns the points of `directions`. Points below the horizon move to the rim. Empty if all are
+/// below the horizon.
 fn above_horizon(dome: Dome, directions: impl IntoIterator<Item = AzEl>) -> Vec<Pos2> {
     let mut is_seen = false;
     let raised = directions.into_iter().filter_map(|direction| {
@@ -83,7 +83,7 @@ fn above_horizon(dome: Dome, directions: impl IntoIterator<Item = AzEl>) -> Vec<
     if is_seen { points } else { Vec::new() }
 }
 
-/// A filled area of any form, in strips: a line covers its rough edges.
+/// Returns a filled area of any shape, made of strips. An outline covers the rough edges.
 pub(in crate::ui) fn filled(outline: &[Pos2], colour: Color32) -> Mesh {
     let mut mesh = Mesh::default();
     let (low, high) = outline.iter().fold((f32::MAX, f32::MIN), |(low, high), position| {
@@ -108,8 +108,7 @@ pub(in crate::ui) fn filled(outline: &[Pos2], colour: Color32) -> Mesh {
     mesh
 }
 
-/// Paints the name of a keep-out, inside if it has room, otherwise beside the area towards
-/// the zenith.
+/// Paints the name of a keep-out: inside if it fits, otherwise next to the area towards the zenith.
 fn label(painter: &Painter, dome: Dome, area: &[Pos2], name: &str, t: &Tokens) -> Rect {
     let bounds = Rect::from_points(area);
     let head = painter.layout_no_wrap("KEEP-OUT".to_owned(), text::sized(11.0, Weight::Bold), t.t1);
@@ -153,7 +152,7 @@ mod tests {
     fn a_zone_reaches_from_the_rim_to_its_top() {
         let mast = zone(&[(80.0, -5.0), (80.0, 30.0), (100.0, 30.0), (100.0, -5.0)]);
         let bounds = Rect::from_points(&outline(DOME, &mast));
-        // East is right; 30 degrees are 90 points from the rim.
+        // East is at the right; 30 degrees are 90 points from the rim.
         assert!((bounds.right() - 270.0).abs() < 0.5, "{bounds}");
         assert!((bounds.left() - 177.3).abs() < 0.5, "{bounds}");
         let outer = Rect::from_points(&margin(DOME, &mast, Angle::from_degrees(2.0)));

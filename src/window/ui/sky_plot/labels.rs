@@ -1,4 +1,4 @@
-//! Labels beside marks, placed one after the other without covering earlier ones.
+//! Labels next to marks, placed one after the other without covering earlier labels.
 
 use std::collections::HashMap;
 
@@ -16,19 +16,20 @@ use crate::ui::{text, tokens::Tokens};
 /// Padding between a text and the edge of its background, points.
 const PADDING: f32 = 2.0;
 
-/// Weights of what a label may cover: a line runs on beside it, a mark or a number is lost.
+/// Weights of objects that a label may cover. A line continues next to a label, but a covered mark
+/// or number is lost.
 pub(super) const LINE: f32 = 1.0;
 pub(super) const MARK: f32 = 4.0;
 
-/// Greatest distance outside the picture of a mark whose label is in it, points.
+/// Max distance between the picture and a mark outside whose label is still drawn, points.
 const OUTSIDE: f32 = 8.0;
 
-/// Identifies a label from frame to frame.
+/// Key of a label from frame to frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(in crate::ui) enum Key {
     /// Name of the selected satellite.
     Selected(u32),
-    /// The station, on the map.
+    /// The station on the map.
     Station,
     Aos,
     Tca,
@@ -39,11 +40,11 @@ pub(in crate::ui) enum Key {
     Minute(i64),
     Sun,
     Moon,
-    /// The antenna with unknown elevation.
+    /// The selected antenna, if its elevation is unknown.
     Bearing,
-    /// An antenna that is not selected, by its place in the station.
+    /// An antenna that is not selected, by its index in the station.
     Antenna(usize),
-    /// Where the plan has an antenna at another time.
+    /// The planned pointing of an antenna at another time, by index.
     Planned(usize),
     /// The selected antenna, in the sky of another time.
     LiveAntenna,
@@ -61,9 +62,9 @@ pub(in crate::ui) struct Label<'a> {
     pub(in crate::ui) mark: Pos2,
     /// Distance from the centre of the mark, points.
     pub(in crate::ui) clearance: f32,
-    /// The sides to try, best first.
+    /// Sides to try, the best first.
     pub(in crate::ui) order: &'a [Side],
-    /// The label is dropped if more than this share of it would be covered, 0 to 1.
+    /// Max covered share of the label, 0 to 1. Azel drops a label with a larger share.
     pub(in crate::ui) tolerance: f32,
 }
 
@@ -71,22 +72,22 @@ pub(in crate::ui) struct Label<'a> {
 pub(in crate::ui) struct Labels<'a> {
     painter: &'a Painter,
     tokens: &'a Tokens,
-    /// The disc that the background of a text must not leave.
+    /// The disc that the background of a label must not leave.
     dome: Option<Dome>,
     bounds: Rect,
     obstacles: Vec<Obstacle>,
-    /// The grounds of the labels, and their place among what is painted.
+    /// Backgrounds of the labels, and their index among the painted shapes.
     grounds: Vec<Shape>,
     grounds_at: ShapeIdx,
-    /// The painted labels; no label may overlap another.
+    /// Places of the painted labels, which no other label may overlap.
     texts: Vec<Rect>,
     before: HashMap<Key, Memory>,
     memory: HashMap<Key, Memory>,
 }
 
 impl<'a> Labels<'a> {
-    /// Starts a frame with the memory of the previous one. Shapes painted from here on lie over the
-    /// grounds of the labels.
+    /// Starts a frame with the memory of the previous frame. Shapes painted afterwards lie above
+    /// the backgrounds of the labels.
     pub(in crate::ui) fn new(
         painter: &'a Painter,
         tokens: &'a Tokens,
@@ -108,7 +109,7 @@ impl<'a> Labels<'a> {
         }
     }
 
-    /// The part of the picture that labels should not leave.
+    /// Returns the part of the picture that labels should not leave.
     pub(in crate::ui) fn bounds(&self) -> Rect {
         self.bounds
     }
@@ -118,13 +119,13 @@ impl<'a> Labels<'a> {
         self.avoid(rect, MARK);
     }
 
-    /// Lets no label lie on a text.
+    /// Prevents labels from covering a text.
     pub(in crate::ui) fn keep_off(&mut self, text: Rect) {
         self.texts.push(text);
     }
 
-    /// Paints a number at the first of these places that is free, else at the least covered one,
-    /// and lets no later label lie on it.
+    /// Paints a number at the first free place of `places`, or else at the least covered place. No
+    /// later label may cover the number.
     pub(super) fn add_number(&mut self, words: String, places: &[Pos2]) {
         let t = self.tokens;
         let galley = self.painter.layout_no_wrap(words, text::caption(), t.t3);
@@ -146,9 +147,9 @@ impl<'a> Labels<'a> {
         self.texts.push(rect);
     }
 
-    /// Keeps labels away from a box, by its weight.
+    /// Keeps labels away from a box, according to its weight.
     pub(super) fn avoid(&mut self, rect: Rect, weight: f32) {
-        // In a magnified sky most of it is out of sight.
+        // In a magnified sky most obstacles are out of sight.
         if self.bounds.intersects(rect) {
             self.obstacles.push(Obstacle { rect, weight });
         }
@@ -167,8 +168,8 @@ impl<'a> Labels<'a> {
         }
     }
 
-    /// Paints a label at the best place and keeps later ones away from it. Returns `None` for
-    /// a dropped label; earlier labels have priority.
+    /// Paints a label at the best place and keeps later labels away from it. Returns `None` for a
+    /// dropped label; earlier labels have priority.
     pub(in crate::ui) fn add(&mut self, label: &Label<'_>) -> Option<Placement> {
         if !self.bounds.expand(OUTSIDE).contains(label.mark) {
             return None;
@@ -179,7 +180,7 @@ impl<'a> Labels<'a> {
         let is_free = |side: &Side| !self.texts.iter().any(|text| text.intersects(rect(side)));
         let is_whole = |side: &Side| self.bounds.contains_rect(rect(side));
         let mut free: Vec<Side> = label.order.iter().copied().filter(is_free).collect();
-        // A label that is always shown may cover a line rather than lose letters at the edge.
+        // A label that is always shown covers a line rather than lose letters at the edge.
         if label.tolerance >= 1.0 && free.iter().any(is_whole) {
             free.retain(is_whole);
         }
@@ -192,8 +193,7 @@ impl<'a> Labels<'a> {
             &self.obstacles,
             self.before.get(&label.key).copied(),
         )?;
-        // Keep the memory of the first choice: otherwise many small steps would add up
-        // unnoticed.
+        // The memory keeps the first choice. Otherwise many small steps would add up unnoticed.
         let chosen = Memory { side: place.side, covered: place.covered };
         let previous = self.before.get(&label.key).filter(|memory| memory.side == place.side);
         self.memory.insert(label.key, previous.copied().unwrap_or(chosen));
@@ -205,7 +205,7 @@ impl<'a> Labels<'a> {
         Some(place)
     }
 
-    /// Lays the grounds. Returns the memory for the next frame.
+    /// Paints the backgrounds. Returns the memory for the next frame.
     pub(in crate::ui) fn finish(self) -> HashMap<Key, Memory> {
         self.painter.set(self.grounds_at, Shape::Vec(self.grounds));
         self.memory
@@ -223,7 +223,8 @@ impl<'a> Labels<'a> {
         let on = |colour| Shape::rect_filled(place.rect, 0.0, colour);
         match self.dome {
             Some(dome) => {
-                // Outside of the rim, too: what a label lies on must not run through it.
+                // A background is also needed outside of the rim, because no line may cross a
+                // label.
                 let is_across = dome.touches(place.rect) && !dome.holds(place.rect);
                 self.grounds.extend(is_across.then(|| on(self.tokens.bg0)));
                 let points = dome.clipped(place.rect);
@@ -232,7 +233,7 @@ impl<'a> Labels<'a> {
             }
             None => self.grounds.push(on(self.tokens.sky)),
         }
-        // A galley that is not aligned to the left lies around its origin.
+        // A galley that is not aligned to the left extends around its origin.
         let shift = inner.min - galley.rect.min.to_vec2();
         self.painter.galley(shift, galley, self.tokens.t2);
     }
@@ -257,7 +258,8 @@ mod tests {
     };
     use egui::pos2;
 
-    /// The keys of the labels of the pass on a disc of this radius; asserts that none overlap.
+    /// Returns the keys of the labels of the pass on a disc of this radius. Checks that no labels
+    /// overlap.
     fn labelled(radius: f32) -> Vec<Key> {
         let dome = Dome { centre: pos2(200.0, 200.0), radius };
         let bounds = Rect::from_min_size(Pos2::ZERO, vec2(400.0, 400.0));

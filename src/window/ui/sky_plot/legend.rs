@@ -21,10 +21,10 @@ const KEYHOLE_NAME: &str = "Keyhole";
 pub(super) const KEYHOLE: &str = "Keyhole: the sky around an end of the lower axis, where an X/Y \
                                   mount cannot point or cannot turn fast enough.";
 
-/// Paints the sample of a row around its centre.
+/// Function that paints the sample of a row around its centre.
 type Sample = fn(&Painter, Pos2, &Tokens);
 
-/// Height of the legend, points. The legend lists only marks that are in the plot.
+/// Returns the height of the legend, points. The legend lists only marks that are in the plot.
 pub(super) fn height(scene: &SkyScene<'_>) -> f32 {
     rows(scene).count() as f32 * ROW
 }

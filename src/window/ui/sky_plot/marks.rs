@@ -5,7 +5,7 @@ use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, vec2};
 use super::geometry::{circle, dashed};
 use crate::ui::tokens::Tokens;
 
-/// Width of the outline that sets a mark off from lines under it, points.
+/// Width of the outline that separates a mark from lines below it, points.
 const OUTLINE: f32 = 1.25;
 /// Half the size of an event mark, points.
 const EVENT: f32 = 6.5;
@@ -15,11 +15,11 @@ const ARM: (f32, f32) = (11.0, 26.0);
 /// The shape of an event of a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::ui) enum EventForm {
-    /// AOS: a triangle that points up.
+    /// A triangle that points up, for AOS.
     Up,
-    /// TCA: a diamond.
+    /// A diamond, for TCA.
     Diamond,
-    /// LOS: a triangle that points down.
+    /// A triangle that points down, for LOS.
     Down,
 }
 
@@ -55,7 +55,7 @@ pub(in crate::ui) fn sun(painter: &Painter, position: Pos2, t: &Tokens) {
 /// Paints the Moon: a crescent, open to the right.
 pub(in crate::ui) fn moon(painter: &Painter, position: Pos2, t: &Tokens) {
     const RADIUS: f32 = 7.0;
-    // Both arcs meet in the two horns; the centre of the inner one is shifted aside.
+    // Both arcs meet in the two horns. The inner arc has its centre further to the side.
     let horn: f32 = 50.0_f32.to_radians();
     let inner_middle = position + vec2(RADIUS * 0.72, 0.0);
     let (up, side) = (RADIUS * horn.sin(), RADIUS * horn.cos() - RADIUS * 0.72);
@@ -73,7 +73,7 @@ pub(in crate::ui) fn moon(painter: &Painter, position: Pos2, t: &Tokens) {
     painter.add(Shape::closed_line(outline, Stroke::new(1.5, t.moon)));
 }
 
-/// Paints a satellite that is not selected; a geostationary one as a square.
+/// Paints an unselected satellite: a circle, or a square if it is geostationary.
 pub(in crate::ui) fn other(painter: &Painter, position: Pos2, geostationary: bool, t: &Tokens) {
     if geostationary {
         painter.rect_filled(Rect::from_center_size(position, Vec2::splat(7.0)), 0.0, t.other);
@@ -93,7 +93,7 @@ pub(in crate::ui) fn commanded(painter: &Painter, position: Pos2, diameter: f32,
     painter.circle_stroke(position, diameter / 2.0, Stroke::new(2.25, t.cmd));
 }
 
-/// Paints the preview of a commanded direction, crossed out if it would be refused.
+/// Paints the preview of a commanded direction, crossed out if Azel would refuse it.
 pub(in crate::ui) fn ghost(
     painter: &Painter,
     position: Pos2,
@@ -112,7 +112,8 @@ pub(in crate::ui) fn ghost(
     }
 }
 
-/// Paints where the plan has an antenna: the four corners of a square with sides of twice `half`.
+/// Paints the planned pointing of an antenna: the four corners of a square with sides of twice
+/// `half`.
 pub(in crate::ui) fn planned(painter: &Painter, position: Pos2, half: f32, t: &Tokens) {
     let leg = half * 0.6;
     for stroke in [Stroke::new(2.0 + 2.0 * OUTLINE, t.sky), Stroke::new(2.0, t.sat)] {
@@ -124,7 +125,7 @@ pub(in crate::ui) fn planned(painter: &Painter, position: Pos2, half: f32, t: &T
     }
 }
 
-/// Paints the measured direction: a cross-hair; `scale` 1 is its size in the plot.
+/// Paints the measured direction as a cross-hair; a `scale` of 1 is its size in the plot.
 pub(in crate::ui) fn measured(painter: &Painter, position: Pos2, scale: f32, t: &Tokens) {
     for stroke in [Stroke::new(2.0 + 2.0 * OUTLINE, t.sky), Stroke::new(2.0, t.ant)] {
         // The outline also surrounds the ends of the arms.

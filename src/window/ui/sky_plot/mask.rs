@@ -8,7 +8,7 @@ use crate::{
     ui::tokens::Tokens,
 };
 
-/// Steps around the horizon, half a degree each: about 2 points at the rim.
+/// Number of steps around the horizon. Each step is half a degree, about 2 points at the rim.
 const STEPS: u16 = 720;
 /// Spacing of the hatch, points.
 const HATCH: f32 = 6.0;
@@ -20,7 +20,7 @@ const SKYLINE: f32 = 1.25;
 /// Paints the area between the skyline and the rim.
 pub(in crate::ui) fn paint(painter: &Painter, dome: Dome, mask: &HorizonMask, t: &Tokens) {
     let rim = dome_line(dome, |_| 0.0);
-    // A skyline below the horizon blocks nothing that is drawn.
+    // The plot shows nothing below the horizon, so a lower skyline counts as zero.
     let skyline = dome_line(dome, |azimuth| mask.elevation_at(azimuth).degrees().max(0.0) as f32);
     painter.add(ribbon(&rim, &skyline, t));
     let outline: Vec<Pos2> = rim.iter().chain(skyline.iter().rev()).copied().collect();
@@ -30,7 +30,7 @@ pub(in crate::ui) fn paint(painter: &Painter, dome: Dome, mask: &HorizonMask, t:
     painter.add(Shape::line(skyline, Stroke::new(SKYLINE, t.hatch)));
 }
 
-/// A line once around the dome, from north to north.
+/// Returns a line once around the dome, from north to north.
 fn dome_line(dome: Dome, elevation_deg: impl Fn(Angle) -> f32) -> Vec<Pos2> {
     let azimuths = (0..=STEPS).map(|step| f64::from(step) * 360.0 / f64::from(STEPS));
     azimuths
@@ -39,8 +39,8 @@ fn dome_line(dome: Dome, elevation_deg: impl Fn(Angle) -> f32) -> Vec<Pos2> {
         .collect()
 }
 
-/// The fill of the mask. A mesh, as egui fills only convex shapes; the rim and the skyline
-/// cover its edges.
+/// Returns the fill of the mask as a mesh, because egui fills only convex shapes. The rim and the
+/// skyline cover its edges.
 fn ribbon(rim: &[Pos2], skyline: &[Pos2], t: &Tokens) -> Mesh {
     let mut mesh = Mesh::default();
     for (index, (outer, inner)) in (0_u32..).zip(rim.iter().zip(skyline)) {
@@ -70,7 +70,7 @@ mod tests {
     fn the_skyline_stands_at_the_elevation_of_the_mask() {
         let mask = HorizonMask::from_degrees([(0.0, 0.0), (90.0, 30.0), (180.0, 0.0)]).unwrap();
         let skyline = dome_line(DOME, |azimuth| mask.elevation_at(azimuth).degrees() as f32);
-        // East is right; 30 degrees are 90 points.
+        // East is at the right; 30 degrees are 90 points.
         assert!(skyline[180].distance(pos2(180.0, 0.0)) < 1e-3, "{}", skyline[180]);
         assert!(skyline[540].distance(pos2(-270.0, 0.0)) < 1e-3, "{}", skyline[540]);
     }

@@ -14,8 +14,8 @@ use crate::{
 /// Side of the square around a mark that reacts to the pointer, points.
 const TARGET: f32 = 20.0;
 
-/// Adds the plot as one focusable node, which the wheel magnifies and which is then dragged,
-/// and returns it; the ids of all other nodes derive from its id.
+/// Adds the plot as one focusable node. The wheel zooms the plot; the operator can drag a zoomed
+/// plot. Returns the node; the ids of all other nodes derive from its id.
 pub(super) fn canvas(
     ui: &Ui,
     rect: Rect,
@@ -43,8 +43,8 @@ pub(super) fn canvas(
     response
 }
 
-/// Adds the nodes of the satellites. Returns the chosen one.
-// The plot, what stands in it, and who shows the menus.
+/// Adds the nodes of the satellites. Returns the chosen satellite.
+// The parameters are the plot, its content and the function for its menus.
 #[allow(clippy::too_many_arguments)]
 pub(super) fn satellites(
     ui: &Ui,
@@ -71,7 +71,7 @@ pub(super) fn satellites(
             )
         });
     let mut chosen = None;
-    // The selected satellite comes last, so that it takes the pointer where two overlap.
+    // The selected satellite comes last, so that it takes the pointer where two nodes overlap.
     let visible = others.chain(selected).filter(|(_, _, _, position, _)| rect.contains(*position));
     for (number, name, direction, position, is_selected) in visible {
         let place = Rect::from_center_size(position, Vec2::splat(TARGET));
@@ -134,7 +134,7 @@ pub(super) fn events_and_antenna(
 }
 
 pub(super) fn name_mark(ui: &Ui, id: Id, position: Pos2, name: &str) {
-    // Small, so that satellites around the node keep the pointer.
+    // The node is small, so that satellites around it keep the pointer.
     let place = Rect::from_center_size(position, Vec2::splat(2.0));
     let response = ui.interact(place, id, Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, name));

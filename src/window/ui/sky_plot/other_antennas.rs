@@ -1,4 +1,4 @@
-//! The antennas that are not selected, and the ends of azimuth axes.
+//! The marks of unselected antennas, and the ends of azimuth axes.
 
 use egui::{Id, Painter, Pos2, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
@@ -13,22 +13,22 @@ use super::{
 };
 use crate::ui::{format, text, tokens::Tokens, widgets::paint};
 
-/// Size of a quiet mark, of the selected one.
+/// Size of the mark of an unselected antenna, as a share of the selected one.
 const SCALE: f32 = 0.5;
-/// Half the box of a quiet cross-hair, points.
+/// Half the side of the box of an unselected cross-hair, points.
 const HALF: f32 = 14.0;
-/// Diameter of a quiet commanded ring, points.
+/// Diameter of the commanded ring of an unselected antenna, points.
 const RING: f32 = 13.0;
-/// How far an azimuth stop reaches inside of the rim, points. It ends on the rim, clear of the
+/// Length of an azimuth stop inside of the rim, points. The stop ends on the rim, clear of the
 /// names outside.
 const STOP: f32 = 22.0;
-/// How far outside of the rim the name of a stop is placed from, points.
+/// Distance between the rim and the name of a stop, points.
 const BESIDE_RIM: f32 = 6.0;
-/// Half the length of the bar at its outer end, points.
+/// Half the length of the bar at the outer end of a stop, points.
 const BAR: f32 = 7.0;
 
 impl OtherAntenna<'_> {
-    /// The place of its mark.
+    /// Returns the place of the mark of the antenna.
     fn mark(&self, dome: Dome) -> Option<Pos2> {
         let measured = self.measured.and_then(|measured| dome.visible(measured.direction));
         measured.or_else(|| bearing::mark(dome, self.bearing.as_ref()?))
@@ -39,14 +39,14 @@ impl OtherAntenna<'_> {
     }
 }
 
-/// Keeps labels away from the marks.
+/// Keeps labels away from the marks of the antennas.
 pub(super) fn reserve(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>) {
     for mark in scene.antennas.iter().filter_map(|antenna| antenna.mark(dome)) {
         labels.reserve(paint::square(mark, 2.0 * HALF));
     }
 }
 
-/// Names the marks.
+/// Adds the names of the antennas.
 pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
     for antenna in scene.antennas {
         let Some(mark) = antenna.mark(dome) else { continue };
@@ -74,7 +74,7 @@ pub(super) fn label_stops(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<
         let name = format!("{} stop", stop.names);
         let angle = format::azimuth(stop.azimuth.degrees());
         let words = format!("{name} {angle}");
-        // Above and below the disc there is no room for two lines outside of the rim.
+        // Two lines do not fit above and below the disc.
         let is_beside = (end - dome.centre).x.abs() >= (end - dome.centre).y.abs();
         let two = [(&*name, text::small_strong(), t.bad), (&*angle, text::small(), t.bad)];
         let one = [(&*words, text::small_strong(), t.bad)];
@@ -89,7 +89,7 @@ pub(super) fn label_stops(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<
     }
 }
 
-/// Both ends of the mark across the rim, the outer one last.
+/// Returns both ends of the mark across the rim, the outer end last.
 fn ends(dome: Dome, stop: &AzimuthStop<'_>) -> Option<[Pos2; 2]> {
     let direction = outward(stop.azimuth.radians() as f32);
     let rim = dome.centre + direction * dome.radius;
@@ -107,7 +107,7 @@ pub(super) fn paint_stops(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t
     }
 }
 
-/// Paints the marks.
+/// Paints the marks of the antennas.
 pub(super) fn paint(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
     for antenna in scene.antennas {
         if let Some(bearing) = &antenna.bearing {
@@ -125,7 +125,7 @@ pub(super) fn paint(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t: &Tok
     }
 }
 
-/// Adds the nodes of the antennas; returns the index of one that was clicked.
+/// Adds the nodes of the antennas. Returns the index of a clicked antenna.
 pub(super) fn nodes(
     ui: &Ui,
     canvas: Id,
@@ -155,7 +155,7 @@ pub(super) fn nodes(
             (None, None) => continue,
         };
         let id = canvas.with(("antenna", antenna.index));
-        // Two antennas on one pass point at one place: a click takes the first.
+        // Two antennas that track the same pass overlap; a click selects the first.
         if points.iter().any(|other| other.distance(position) < 2.0 * HALF) {
             name_mark(ui, id, position, &text);
             continue;

@@ -1,11 +1,10 @@
-//! The placement of a label beside its mark.
+//! The placement of a label next to its mark.
 
 use egui::{Pos2, Rect, Vec2, vec2};
 
-/// A label leaves its side of the mark when the covered share of its area has grown by more
-/// than this.
+/// Max growth of the covered share of a label before the label leaves its side of the mark.
 const PATIENCE: f32 = 0.3;
-/// For a side that is free it leaves when more of it is covered than this.
+/// Max covered share of a label before it moves to a free side.
 const LITTLE: f32 = 0.02;
 
 /// A side of a mark.
@@ -22,7 +21,7 @@ pub(in crate::ui) enum Side {
 }
 
 impl Side {
-    /// All sides in the order in which they are tried.
+    /// All sides in the order in which the placement tries them.
     pub(in crate::ui) const ORDER: [Self; 8] = [
         Self::East,
         Self::West,
@@ -34,7 +33,7 @@ impl Side {
         Self::SouthWest,
     ];
 
-    /// The direction on the screen, each component -1, 0 or 1.
+    /// Returns the direction on the screen, each component -1, 0 or 1.
     pub(in crate::ui) fn direction(self) -> Vec2 {
         match self {
             Self::East => vec2(1.0, 0.0),
@@ -48,8 +47,8 @@ impl Side {
         }
     }
 
-    /// All sides, those nearest to a direction on the screen first; in [`Self::ORDER`] for a
-    /// direction without length.
+    /// Returns all sides, the nearest to a direction on the screen first. A direction without
+    /// length returns [`Self::ORDER`].
     pub(in crate::ui) fn by_nearness(direction: Vec2) -> [Self; 8] {
         let target = direction.normalized();
         let difference = |side: &Self| 1.0 - side.direction().normalized().dot(target);
@@ -58,13 +57,13 @@ impl Side {
         order
     }
 
-    /// The side nearest to a direction on the screen.
+    /// Returns the side nearest to a direction on the screen.
     pub(in crate::ui) fn nearest(direction: Vec2) -> Self {
         let [nearest, ..] = Self::by_nearness(direction);
         nearest
     }
 
-    /// The rectangle of a label of `size`, `clearance` points from its mark.
+    /// Returns the rectangle of a label of `size`, `clearance` points from its mark.
     pub(in crate::ui) fn rect(self, mark: Pos2, size: Vec2, clearance: f32) -> Rect {
         let direction = self.direction();
         let diagonal = direction.x != 0.0 && direction.y != 0.0;
@@ -79,7 +78,7 @@ pub(in crate::ui) struct Placement {
     pub(in crate::ui) side: Side,
     /// The rectangle of the text.
     pub(in crate::ui) rect: Rect,
-    /// Covered share of the label by the weight of what it covers; may be above 1.
+    /// Covered share of the label, weighted by the marks below it; may exceed 1.
     pub(in crate::ui) covered: f32,
 }
 
@@ -87,7 +86,7 @@ pub(in crate::ui) struct Placement {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::ui) struct Memory {
     pub(in crate::ui) side: Side,
-    /// [`Placement::covered`] when its side was chosen.
+    /// [`Placement::covered`] at the time when the side was chosen.
     pub(in crate::ui) covered: f32,
 }
 
@@ -95,12 +94,12 @@ pub(in crate::ui) struct Memory {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::ui) struct Obstacle {
     pub(in crate::ui) rect: Rect,
-    /// How much worse it is to cover this box than a line.
+    /// Cost of covering this box, as a multiple of the cost of a line.
     pub(in crate::ui) weight: f32,
 }
 
-/// The share of `rect` that lies over obstacles, each by its weight, or outside `bounds`. Above 1
-/// where there is much to cover.
+/// Returns the share of `rect` that covers obstacles, each by its weight, or lies outside `bounds`.
+/// The share may exceed 1.
 pub(super) fn covered(rect: Rect, bounds: Rect, obstacles: &[Obstacle]) -> f32 {
     let area = rect.area().max(f32::EPSILON);
     let shared = |other: Rect| {
@@ -111,9 +110,9 @@ pub(super) fn covered(rect: Rect, bounds: Rect, obstacles: &[Obstacle]) -> f32 {
     (overlap_weight + area - shared(bounds)) / area
 }
 
-/// Chooses the first free side in the given order, otherwise the least covered one. A label
-/// stays on its side until clearly more of it is covered than when the side was chosen, or more
-/// than a little while another side is free. Returns `None` if `order` is empty.
+/// Chooses the first free side in the given order, otherwise the least covered side. A label stays
+/// on its side until clearly more of it is covered than at first. If another side is free, the
+/// label leaves when more than a small part is covered. Returns `None` if `order` is empty.
 pub(in crate::ui) fn place(
     mark: Pos2,
     size: Vec2,
@@ -123,7 +122,7 @@ pub(in crate::ui) fn place(
     obstacles: &[Obstacle],
     before: Option<Memory>,
 ) -> Option<Placement> {
-    // No side reaches farther, so that each has only a few obstacles to be measured against.
+    // No label reaches farther, so only the obstacles near the mark have to be checked.
     let reach = Rect::from_center_size(mark, 2.0 * (size + Vec2::splat(clearance)));
     let is_near = |other: &&Obstacle| other.rect.intersects(reach);
     let near: Vec<Obstacle> = obstacles.iter().filter(is_near).copied().collect();
@@ -131,7 +130,7 @@ pub(in crate::ui) fn place(
         let rect = side.rect(mark, size, clearance);
         Placement { side, rect, covered: covered(rect, bounds, &near) }
     };
-    // The first of equals wins: `order` decides between free sides.
+    // The first of equal sides wins, so `order` decides between free sides.
     let best = order
         .iter()
         .map(|side| on(*side))
@@ -183,7 +182,7 @@ mod tests {
             let here = placed(&reserved, None);
             assert_eq!(here.side, side);
             assert!(here.covered < 1e-6);
-            // Smaller than the label, so that it does not reach its neighbours.
+            // The rectangle is smaller than the label, so that it does not reach its neighbours.
             reserved.push(Rect::from_center_size(here.rect.center(), vec2(8.0, 4.0)));
         }
         assert!(placed(&reserved, None).covered > 0.0);

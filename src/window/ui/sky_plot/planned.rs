@@ -1,5 +1,5 @@
-//! Where the plan has the antennas, in the sky of another time. Their live marks stay where they
-//! are and are named so.
+//! Planned pointing of the antennas in the sky of another time. Their live marks keep their place
+//! and are labelled "now".
 
 use egui::{Id, Painter, Pos2, Ui};
 
@@ -20,7 +20,7 @@ use crate::{
 const HALF: f32 = 13.0;
 
 impl PlannedAntenna<'_> {
-    /// The place of its mark; at the rim for an antenna without elevation.
+    /// Returns the place of the planned mark; at the rim for an antenna without elevation.
     fn mark(&self, dome: Dome) -> Option<Pos2> {
         if let Some(direction) = self.pointing.direction() {
             return dome.visible(direction);
@@ -38,14 +38,14 @@ fn marks<'a>(
     antennas.iter().filter_map(move |antenna| Some((antenna, antenna.mark(dome)?)))
 }
 
-/// Keeps labels away from the marks.
+/// Keeps labels away from the planned marks.
 pub(super) fn reserve(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>) {
     for (_, mark) in marks(dome, scene) {
         labels.reserve(paint::square(mark, 2.0 * HALF));
     }
 }
 
-/// Names the marks, and the live mark of the selected antenna.
+/// Labels the planned marks, and the live mark of the selected antenna.
 pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
     let Some(later) = scene.later else { return };
     let live = scene.measured.and_then(|measured| dome.visible(measured.direction));
@@ -67,14 +67,14 @@ pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t
             lines: &[(&name, text::small_strong(), t.sat), (&planned.doing, text::caption(), t.t2)],
             mark,
             clearance: HALF + 2.0,
-            // Inside of the disc there is room.
+            // A label has room inside of the disc.
             order: &Side::by_nearness(dome.centre - mark),
             tolerance: 1.0,
         });
     }
 }
 
-/// Paints the marks.
+/// Paints the planned marks.
 pub(super) fn paint(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
     for (_, position) in marks(dome, scene) {
         marks::planned(painter, position, HALF - 2.0, t);

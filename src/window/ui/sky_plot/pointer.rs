@@ -10,14 +10,14 @@ use crate::{
     ui::{along, format, text, tokens::Tokens, widgets::paint},
 };
 
-/// Distance from the path within which the pointer marks a point of it, points.
+/// Max distance from the path at which the pointer marks a point of it, points.
 const GRIP: f32 = 9.0;
 /// Distance of the words from the pointer or the mark, points.
 const MARGIN: f32 = 14.0;
 /// Radius of the mark on the path, points.
 const MARK: f32 = 4.0;
 
-/// The point of the path that is nearest to `position`, if it is near.
+/// Returns the point of the path nearest to `position`, if it is within [`GRIP`].
 pub(super) fn on_path(dome: Dome, track: &Track<'_>, position: Pos2) -> Option<Sample> {
     let mut nearest: Option<(f32, Timestamp)> = None;
     for pair in track.samples.windows(2) {
@@ -37,7 +37,7 @@ pub(super) fn on_path(dome: Dome, track: &Track<'_>, position: Pos2) -> Option<S
     along::sample_at(track.samples, nearest?.1)
 }
 
-/// Paints the marked point of the path, with its time and direction beside it.
+/// Paints the marked point of the path, with its time and direction.
 pub(super) fn marked(ui: &Ui, rect: Rect, dome: Dome, sample: Sample, now: Timestamp, t: &Tokens) {
     let Some(position) = dome.visible(sample.direction) else { return };
     ui.painter().circle(position, MARK, t.sky, Stroke::new(2.0, t.sat));
@@ -49,7 +49,7 @@ pub(super) fn marked(ui: &Ui, rect: Rect, dome: Dome, sample: Sample, now: Times
     paint::name_text(ui, "marked", place, &name);
 }
 
-/// Writes the direction under the pointer beside it.
+/// Paints the direction under the pointer next to the pointer.
 pub(super) fn pointed_at(ui: &Ui, rect: Rect, position: Pos2, pointed: AzEl, t: &Tokens) {
     let place = words_beside(ui, rect, position, &direction(pointed), t);
     let (azimuth, elevation) = spoken(pointed);

@@ -19,10 +19,10 @@ const RIGHT_TOP: f32 = 44.0;
 const LINE_GAP: f32 = 3.0;
 /// Gap between a line and the disc with the names around it, points.
 const CLEARANCE: f32 = 4.0;
-/// Number of large lines, from the first.
+/// Number of large lines at the top of the readout.
 const LARGE: usize = 2;
 
-/// A line with its places.
+/// A line of the readout with its places.
 struct ReadoutLine {
     /// Place of the label with the first row of the value, then the places of further rows.
     places: Vec<Rect>,
@@ -30,7 +30,7 @@ struct ReadoutLine {
     value: (Pos2, Arc<Galley>),
 }
 
-/// Paints the lines that have room, `over_sky` on a ground of their own.
+/// Paints the lines that have room; `over_sky` gives them a background.
 pub(super) fn paint(
     painter: &Painter,
     rect: Rect,
@@ -48,7 +48,7 @@ pub(super) fn paint(
     }
 }
 
-/// The boxes of the lines, which labels avoid.
+/// Returns the boxes of the lines, which labels avoid.
 pub(super) fn reserved(
     painter: &Painter,
     rect: Rect,
@@ -60,8 +60,8 @@ pub(super) fn reserved(
     lines.iter().flat_map(|line| &line.places).map(|place| place.expand(4.0)).collect()
 }
 
-/// Lays the lines out from the left corner downwards until one would meet the disc, then in
-/// the right corner. Lines without room in either corner are left out.
+/// Lays out the lines in the left corner downwards until one would meet the disc, then in the right
+/// corner. Omits lines without room in either corner.
 fn lines(
     painter: &Painter,
     rect: Rect,
@@ -95,8 +95,8 @@ fn lines(
     placed
 }
 
-/// Lays out a line: in the left corner with the values aligned in a column, in the right
-/// corner with the value at the edge and its label before it.
+/// Lays out a line. In the left corner, values align in a column; in the right corner, the value
+/// stands at the edge after its label.
 fn line(
     rect: Rect,
     top: f32,
@@ -107,7 +107,7 @@ fn line(
     let label_width = if on_left { LABELS } else { label.size().x + LABEL_GAP };
     let width = label_width + value.size().x;
     let left = if on_left { rect.left() + EDGE } else { rect.right() - EDGE - width };
-    // The label stands on the first row of its value.
+    // The label aligns with the first row of its value.
     let first = value.rows.first().map_or(0.0, |row| row.height());
     let label_at = pos2(left, top + (first - label.size().y) / 2.0);
     let value_at = pos2(left + label_width, top);
@@ -134,7 +134,7 @@ mod tests {
         ]
     }
 
-    /// The places of the lines in a plot of this size.
+    /// Returns the places of the lines in a plot of this size.
     fn places(width: f32, height: f32) -> Vec<Vec<Rect>> {
         let size = vec2(width, height);
         let mut harness = window(size, Vec::new(), move |ui, places: &mut Vec<Vec<Rect>>| {

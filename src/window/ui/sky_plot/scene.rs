@@ -12,11 +12,12 @@ use crate::{
 /// Content of the plot at one moment. The plot leaves out directions that are not finite.
 #[derive(Debug, Clone)]
 pub struct SkyScene<'a> {
-    /// The displayed time, of the track as well. All that is commanded or measured is of now.
+    /// Time of the displayed sky and of the track. Commanded and measured directions are always
+    /// current.
     pub now: Timestamp,
-    /// Lowest elevation at which passes are planned.
+    /// Min elevation of planned passes.
     pub minimum_elevation: Angle,
-    /// The horizon mask of the site.
+    /// Horizon mask of the site; `None` without a mask.
     pub mask: Option<&'a HorizonMask>,
     /// Zones into which the antenna must not point.
     pub keep_outs: &'a [KeepOutMark<'a>],
@@ -24,11 +25,11 @@ pub struct SkyScene<'a> {
     pub keyholes: Option<Keyholes>,
     pub track: Option<Track<'a>>,
     pub others: &'a [OtherSatellite<'a>],
-    /// The Sun; not drawn below the horizon.
+    /// Direction of the Sun, which is not drawn below the horizon.
     pub sun: Option<AzEl>,
-    /// The Moon; not drawn below the horizon.
+    /// Direction of the Moon, which is not drawn below the horizon.
     pub moon: Option<AzEl>,
-    /// In the sky of another time; `None` for now.
+    /// Marks of the sky of another time; `None` for the current sky.
     pub later: Option<LaterScene<'a>>,
     /// The commanded direction.
     pub commanded: Option<AzEl>,
@@ -42,22 +43,22 @@ pub struct SkyScene<'a> {
     pub antennas: &'a [OtherAntenna<'a>],
     /// The ends of azimuth axes.
     pub stops: &'a [AzimuthStop<'a>],
-    /// The antenna, while only its azimuth or a limit of its azimuth is known.
+    /// Mark of an antenna with unknown elevation, or at a limit of its azimuth.
     pub bearing: Option<Bearing<'a>>,
     /// The predicted direction of the satellite at the time of the measurement.
     pub predicted: Option<AzEl>,
-    /// Measured minus predicted of the last 60 s in degrees, oldest first:
-    /// across (azimuth times the cosine of the elevation) and in elevation.
+    /// Measured minus predicted direction of the last 60 s, degrees, oldest first: across (azimuth
+    /// times the cosine of the elevation) and in elevation.
     pub recent_errors: &'a [(f32, f32)],
-    /// A time of the path that is marked elsewhere.
+    /// Time of the path that another view marks.
     pub marked: Option<Timestamp>,
     /// Lines of the readout: label and value.
     pub readout: &'a [(&'a str, String)],
-    /// The state sentence, read aloud for the whole plot.
+    /// State sentence, which screen readers read for the whole plot.
     pub description: &'a str,
 }
 
-/// A region in which the antenna must not point.
+/// A keep-out as the plot shows it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KeepOutMark<'a> {
     /// The operator's name for the zone.
@@ -77,7 +78,7 @@ pub struct Keyholes {
 }
 
 impl Keyholes {
-    /// The keyholes where the lower axis dips below the travel; `None` for a mount without
+    /// Returns the keyholes, where the lower axis dips below the travel; `None` for a mount without
     /// such an axis.
     pub fn new(mount: &Mount) -> Option<Self> {
         let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, .. } = *mount else {
@@ -103,17 +104,17 @@ pub struct Track<'a> {
     pub show_aos: bool,
     /// `false` if the path ends at the end of the prediction window.
     pub show_los: bool,
-    /// Present direction of the satellite.
+    /// Current direction of the satellite.
     pub position: Option<AzEl>,
 }
 
-/// A direction that the operator looks at before the antenna is sent there.
+/// A direction that the operator previews before Azel sends the antenna there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ghost<'a> {
     pub end: AzEl,
-    /// The way that both axes would take; empty while it is not known.
+    /// Path that both axes would take; empty while it is unknown.
     pub way: &'a [AzEl],
-    /// The antenna would not be sent there.
+    /// `true` if Azel would refuse the motion.
     pub is_refused: bool,
 }
 
@@ -122,11 +123,11 @@ pub struct Ghost<'a> {
 pub struct OtherSatellite<'a> {
     pub catalog_number: u32,
     pub name: &'a str,
-    /// Present direction.
+    /// Current direction.
     pub direction: AzEl,
-    /// The path of the next minutes, in order of time.
+    /// Path over the next minutes, in order of time.
     pub ahead: &'a [AzEl],
-    /// The satellite stands still in the sky.
+    /// `true` if the satellite stands still in the sky.
     pub geostationary: bool,
 }
 
@@ -135,19 +136,19 @@ pub struct OtherSatellite<'a> {
 pub struct Measured<'a> {
     /// The reported direction.
     pub direction: AzEl,
-    /// The age of the report, such as "14 s", once the link is lost.
+    /// Age of the report, such as "14 s", if the link is lost.
     pub lost: Option<&'a str>,
 }
 
 /// An antenna that is not selected.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OtherAntenna<'a> {
-    /// Its place in the station.
+    /// Index of the antenna in the station.
     pub index: usize,
     pub name: &'a str,
     pub commanded: Option<AzEl>,
     pub measured: Option<Measured<'a>>,
-    /// While only its azimuth or a limit of its azimuth is known.
+    /// Mark of an antenna with unknown elevation, or at a limit of its azimuth.
     pub bearing: Option<Bearing<'a>>,
 }
 
@@ -159,13 +160,13 @@ pub struct LaterScene<'a> {
     pub selected: Option<&'a str>,
 }
 
-/// Where the plan has an antenna at another time.
+/// Planned pointing of an antenna at another time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlannedAntenna<'a> {
-    /// Its place in the station.
+    /// Index of the antenna in the station.
     pub index: usize,
     pub name: &'a str,
-    /// Its activity then, such as "tracking NOAA 20".
+    /// Activity at that time, such as "tracking NOAA 20".
     pub doing: String,
     pub pointing: Pointing,
 }
@@ -186,10 +187,10 @@ pub struct Bearing<'a> {
     pub measured: Option<Angle>,
     /// Name of the limit at which the unit shows no azimuth, such as "CCW limit".
     pub limit: Option<&'static str>,
-    /// Commanded azimuth.
+    /// Commanded azimuth; `None` without a command.
     pub commanded: Option<Angle>,
     /// Target azimuth of a previewed motion.
     pub ghost: Option<Angle>,
-    /// The age of the report, such as "14 s", once the link is lost.
+    /// Age of the report, such as "14 s", if the link is lost.
     pub lost: Option<&'a str>,
 }

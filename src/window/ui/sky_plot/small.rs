@@ -55,7 +55,7 @@ pub fn paint_small(painter: &Painter, rect: Rect, scene: &SkyScene<'_>, t: &Toke
     }
 }
 
-/// AOS and LOS; TCA would hide the path in so small a plot.
+/// Returns AOS and LOS; TCA would hide the path in a small plot.
 fn ends(pass: &super::Track<'_>) -> Vec<track::Event> {
     let events = track::events(pass).into_iter();
     events.filter(|event| event.form != marks::EventForm::Diamond).collect()

@@ -110,7 +110,7 @@ fn a_layer_that_is_switched_off_takes_its_satellites_along() {
 
 #[test]
 fn a_low_or_narrow_plot_has_the_legend_behind_a_button() {
-    // A narrow plot has no room for it beside the disc either.
+    // A narrow plot also has no room for the legend next to the disc.
     for size in [vec2(672.0, 468.0), vec2(520.0, 580.0)] {
         let mut harness = story(size, sky());
         harness.run();
@@ -159,7 +159,7 @@ fn the_sky_may_be_empty() {
     harness.run();
 }
 
-/// The texts of the last frame with their places.
+/// Returns the texts of the last frame with their places.
 fn texts(harness: &Harness<'_, Story>) -> Vec<(String, Rect)> {
     fn collect(shape: &egui::Shape, found: &mut Vec<(String, Rect)>) {
         match shape {
@@ -178,7 +178,7 @@ fn texts(harness: &Harness<'_, Story>) -> Vec<(String, Rect)> {
     found
 }
 
-/// The corners of all that is filled in the last frame.
+/// Returns the vertices of all filled shapes of the last frame.
 fn vertices(harness: &Harness<'_, Story>) -> Vec<egui::epaint::Vertex> {
     fn collect(shape: &egui::Shape, found: &mut Vec<egui::epaint::Vertex>) {
         match shape {

@@ -1,4 +1,4 @@
-//! An invented pass for the tests of the sky plot.
+//! A simulated pass for the tests of the sky plot.
 
 use glam::DVec3;
 use jiff::{SignedDuration, Timestamp};
@@ -9,12 +9,12 @@ use crate::{
     plan::Sample,
 };
 
-/// 11:06:12Z.
+/// Returns the time 11:06:12Z.
 pub(super) fn now() -> Timestamp {
     "2026-11-14T11:06:12Z".parse().unwrap()
 }
 
-/// From south to north over the west, 11:01:53Z to 11:14:45Z, every 4 s.
+/// Returns a pass from south to north over the west, 11:01:53Z to 11:14:45Z, a sample every 4 s.
 pub(super) fn pass() -> Vec<Sample> {
     let aos: Timestamp = "2026-11-14T11:01:53Z".parse().unwrap();
     let station_km = DVec3::Z * 6371.0;
@@ -31,7 +31,7 @@ pub(super) fn pass() -> Vec<Sample> {
         .collect()
 }
 
-/// The pass with these samples, at [`now`].
+/// Returns the pass with these samples, at [`now`].
 pub(super) fn track(samples: &[Sample]) -> Track<'_> {
     let (first, last) = (*samples.first().unwrap(), *samples.last().unwrap());
     let top = samples
@@ -51,7 +51,7 @@ pub(super) fn track(samples: &[Sample]) -> Track<'_> {
     }
 }
 
-/// A sky with nothing in it.
+/// Returns an empty sky.
 pub(super) fn empty() -> SkyScene<'static> {
     SkyScene {
         now: now(),

@@ -15,44 +15,44 @@ use crate::{
     ui::{format, text, tokens::Tokens},
 };
 
-/// Labels of minutes keep this far from an event.
+/// Min time between a minute label and an event, seconds.
 const CLEAR_OF_EVENT_S: i64 = 45;
-/// Labels of minutes keep this far from the present.
+/// Min time between a minute label and the present, seconds.
 const CLEAR_OF_NOW_S: i64 = 30;
-/// Minimum distance between ticks, points.
+/// Min distance between ticks, points.
 const TICK_DISTANCE: f32 = 6.0;
 
-/// The path, split at the present.
+/// The path of the pass, split at the present.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Parts {
-    /// Past points, in order of time.
+    /// Past points of the path, in order of time.
     pub(super) flown: Vec<Pos2>,
-    /// Future points, in order of time.
+    /// Future points of the path, in order of time.
     pub(super) planned: Vec<Pos2>,
 }
 
-/// The tick of a full minute on the path.
+/// A tick of a full minute on the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Tick {
-    /// Minutes since 1970.
+    /// Time of the tick, minutes since 1970.
     pub(super) minute: i64,
     pub(super) position: Pos2,
     /// Unit vector across the path, away from the zenith.
     pub(super) across: Vec2,
-    /// The tick is long and may have its time beside it.
+    /// `true` for a long tick, which may have a time label.
     pub(super) even: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Event {
-    /// AOS, TCA or LOS.
+    /// Label key of the event: AOS, TCA or LOS.
     pub(super) key: Key,
     pub(super) word: &'static str,
     pub(super) sample: Sample,
     pub(super) form: EventForm,
 }
 
-/// The events of a pass that the prediction window does not cut off.
+/// Returns the events of a pass that lie within the prediction window.
 pub(super) fn events(track: &Track<'_>) -> Vec<Event> {
     let rise = track.show_aos.then_some((Key::Aos, "AOS", track.aos, EventForm::Up));
     let top = Some((Key::Tca, "TCA", track.tca, EventForm::Diamond))
@@ -80,7 +80,7 @@ pub(super) fn parts(dome: Dome, track: &Track<'_>, now: Timestamp) -> Parts {
     Parts { flown, planned }
 }
 
-/// The full minutes of the path; every tenth minute or every hour of a very long path.
+/// Returns the full minutes of the path; every tenth minute or every hour of a very long path.
 pub(super) fn ticks(dome: Dome, track: &Track<'_>) -> Vec<Tick> {
     let seconds = track.los.time.as_second().saturating_sub(track.aos.time.as_second());
     let step = match seconds {
@@ -119,7 +119,7 @@ pub(super) fn paint(painter: &Painter, parts: &Parts, ticks: &[Tick], t: &Tokens
     if parts.flown.len() > 1 {
         painter.add(Shape::line(parts.flown.clone(), Stroke::new(2.5, t.sat)));
     }
-    // From the end, so that the dashes stand still while the path ahead gets shorter.
+    // The dashes start at the end, so that they stand still while the path ahead gets shorter.
     let backwards: Vec<Pos2> = parts.planned.iter().rev().copied().collect();
     painter.extend(dashed(&backwards, 7.0, 5.0, Stroke::new(2.0, t.sat)));
     for tick in ticks {
@@ -137,7 +137,7 @@ pub(super) fn paint_events(painter: &Painter, dome: Dome, events: &[Event], t: &
     }
 }
 
-/// Labels the events; where there is no room for all, AOS and LOS come before TCA.
+/// Labels the events. AOS and LOS come before TCA if there is no room for all.
 pub(super) fn label_events(
     labels: &mut Labels<'_>,
     dome: Dome,
@@ -157,7 +157,7 @@ pub(super) fn label_events(
         } else {
             format!("az {azimuth}")
         };
-        // Sides towards the inside of the disc first.
+        // The sides towards the inside of the disc come first.
         labels.add(&Label {
             key: event.key,
             lines: &[(&first, text::small_strong(), t.t1), (&second, text::caption(), t.t2)],
@@ -230,7 +230,7 @@ mod tests {
         let samples = testing::pass();
         let track = testing::track(&samples);
         let ticks = ticks(DOME, &track);
-        // 11:01:53 to 11:14:45.
+        // The pass lasts from 11:01:53 to 11:14:45.
         assert_eq!(ticks.len(), 13);
         assert!(ticks.windows(2).all(|pair| pair[1].minute == pair[0].minute + 1));
         assert_eq!(ticks.iter().filter(|tick| tick.even).count(), 7);

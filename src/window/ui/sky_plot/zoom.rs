@@ -4,18 +4,18 @@ use egui::{Pos2, Vec2};
 
 use super::geometry::Dome;
 
-/// Largest magnification.
+/// Max magnification.
 const MAX_ZOOM: f32 = 8.0;
-/// Points of the wheel for a magnification of e.
+/// Distance that the wheel turns for a magnification by e, points.
 const POINTS: f32 = 250.0;
-/// Magnification of a key press.
+/// Factor by which a key press magnifies.
 const STEP: f32 = 1.5;
 
-/// Magnification and place of the disc.
+/// Magnification and position of the disc.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Zoom {
     factor: f32,
-    /// From the middle of the plot to the zenith, in radii of the whole disc.
+    /// Offset of the zenith from the middle of the plot, in radii of the whole disc.
     shift: Vec2,
 }
 
@@ -26,23 +26,23 @@ impl Default for Zoom {
 }
 
 impl Zoom {
-    /// Returns `true` if the whole disc is shown.
+    /// Returns `true` if the plot shows the whole disc.
     pub(super) fn is_whole(self) -> bool {
         self.factor <= 1.0
     }
 
-    /// The disc, of which `whole` would show everything.
+    /// Returns the magnified disc; `whole` is the disc at magnification 1.
     pub(super) fn disc(self, whole: Dome) -> Dome {
         let centre = whole.centre + self.shift * whole.radius;
         Dome { centre, radius: whole.radius * self.factor }
     }
 
-    /// Takes a turn of the wheel by `points` at the place `position`, which stays where it is.
+    /// Zooms by a turn of the wheel, `points`. The place under `position` does not move.
     pub(super) fn turn(&mut self, points: f32, position: Pos2, whole: Dome) {
         self.magnify((points / POINTS).exp(), position, whole);
     }
 
-    /// Magnifies by `step` around `position`.
+    /// Magnifies by the factor `step` around `position`.
     pub(super) fn magnify(&mut self, step: f32, position: Pos2, whole: Dome) {
         if !step.is_finite() {
             return;
@@ -54,7 +54,7 @@ impl Zoom {
         self.keep_in_place();
     }
 
-    /// Magnifies around the middle of the plot, or makes it smaller.
+    /// Zooms in or out around the middle of the plot.
     pub fn step(&mut self, is_closer: bool) {
         let amount = if is_closer { STEP } else { 1.0 / STEP };
         let factor = (self.factor * amount).clamp(1.0, MAX_ZOOM);
@@ -63,7 +63,7 @@ impl Zoom {
         self.keep_in_place();
     }
 
-    /// Takes a drag of the disc by `delta` points.
+    /// Moves the disc by a drag of `delta` points.
     pub(super) fn drag(&mut self, delta: Vec2, whole: Dome) {
         self.shift += delta / whole.radius;
         self.keep_in_place();
@@ -74,7 +74,7 @@ impl Zoom {
         *self = Self::default();
     }
 
-    /// The disc always fills the place of the whole one.
+    /// Limits the shift, so that the disc always covers the place of the whole disc.
     fn keep_in_place(&mut self) {
         let max = self.factor - 1.0;
         let length = self.shift.length();
@@ -110,7 +110,7 @@ mod tests {
         }
         assert!((zoom.disc(WHOLE).radius - 1600.0).abs() < 0.1);
         zoom.drag(vec2(9000.0, 0.0), WHOLE);
-        // The rim reaches the rim of the whole disc and no further.
+        // The rim of the disc reaches the rim of the whole disc and no further.
         let dome = zoom.disc(WHOLE);
         assert!((dome.centre.x - dome.radius - 100.0).abs() < 0.1, "{dome:?}");
         for _ in 0..50 {

@@ -14,7 +14,7 @@ use crate::{
     },
 };
 
-/// Maximum number of refused objects listed.
+/// Max number of refused objects in the list.
 const MAX_TOLD: usize = 3;
 
 /// Shows the sentences about `view`, fetched at `time`, for `satellite`.

@@ -37,7 +37,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             let spoken = Spoken::new(SentenceKind::Caution).plain(words);
             Some(what_it_did(spoken, antenna).plain("Check its cable and the network."))
         }
-        // Azel does not know the present state, and so does not state one.
+        // The sentence states no current state, because Azel does not know it.
         Answers::Silent(age) => {
             let silence = format!("No reply from {name} for {}. ", format::age(age.as_secs_f64()));
             let spoken = Spoken::new(SentenceKind::Caution).plain(silence);
@@ -54,7 +54,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
                 format::age(age.as_secs_f64()),
                 words::link_loss(reason)
             ));
-            // A connection that the unit closes at once may appear as a reset.
+            // A connection that the unit closes immediately may appear as a reset.
             let is_turned_away =
                 matches!(reason, LinkLoss::Refused(_) | LinkLoss::Closed | LinkLoss::Broken(_));
             let spoken = match antenna.spec().closed_note.filter(|_| is_turned_away) {
@@ -69,12 +69,12 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
     }
 }
 
-/// An unproved stop is the graver matter.
+/// Returns `true` for an unconfirmed stop, which is more severe than a lost link.
 fn is_stopping(antenna: &AntennaModel) -> bool {
     matches!(antenna.snapshot.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. })
 }
 
-/// The sentence for a link that is off: the reason, and how to connect.
+/// Returns the sentence for a link that is off: the reason, and how to connect.
 fn switched_off(antenna: &AntennaModel) -> String {
     let name = &antenna.config.name;
     if let Some(HeldBy::Unknown(reason)) = &antenna.held_by {
@@ -98,7 +98,7 @@ fn switched_off(antenna: &AntennaModel) -> String {
     )
 }
 
-/// The sentence for a unit whose numbers cannot be read.
+/// Returns the sentence for a unit whose values Azel cannot read.
 fn unreadable(model: &Model, antenna: &AntennaModel, reason: &str) -> Option<Spoken> {
     let again = match antenna.snapshot.link {
         LinkState::Off | LinkState::Connecting { .. } => return None,
@@ -119,7 +119,7 @@ fn what_it_did(spoken: Spoken, antenna: &AntennaModel) -> Spoken {
     let state = &antenna.snapshot.state;
     let moving = state.measured.is_some_and(|measured| measured.moving());
     if state.program.is_some_and(|program| program.enabled) {
-        // A new link forgets the satellite until the unit reports it again.
+        // A new link has no satellite until the unit reports it again.
         let current = state.on_board.satellite.as_ref().map(|satellite| satellite.name.as_str());
         let name = current.or(antenna.errors_of.as_deref());
         return spoken

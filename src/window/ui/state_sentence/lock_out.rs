@@ -12,7 +12,7 @@ use crate::{
 pub(super) fn sentence(antenna: &AntennaModel) -> Option<Spoken> {
     let snapshot = &antenna.snapshot;
     let lock_out = snapshot.lock_out.as_ref()?;
-    // An unproved stop is the graver matter.
+    // An unconfirmed stop is more severe than the lock-out.
     if matches!(snapshot.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. }) {
         return None;
     }
@@ -33,7 +33,7 @@ pub(super) fn sentence(antenna: &AntennaModel) -> Option<Spoken> {
     )))
 }
 
-/// Start of the lock-out, with the day.
+/// Returns the start of the lock-out, with the day.
 fn start_of_lock_out(antenna: &AntennaModel) -> String {
     let start = antenna.snapshot.lock_out.as_ref().map(|lock_out| lock_out.start);
     start.map_or_else(String::new, format::dated)

@@ -12,7 +12,7 @@ use crate::{
     ui::{format, widgets::sentence::SentenceKind, words},
 };
 
-/// Time for which such a sentence is shown.
+/// Time for which such a sentence is shown, seconds.
 const SHOWN_S: f64 = 12.0;
 
 pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {

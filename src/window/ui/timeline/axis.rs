@@ -11,13 +11,13 @@ use crate::ui::{
 
 const NOW_WIDTH: f32 = 1.75;
 const NOW_TRIANGLE: egui::Vec2 = vec2(10.0, 7.0);
-/// Minimum width of an hour for a name of its own, in points.
+/// Min width of an hour with a label, points.
 const NARROW_HOUR: f32 = 40.0;
-/// Minimum width of an hour for lines at half hours, in points.
+/// Min width of an hour with lines at half hours, points.
 const WIDE_HOUR: f32 = 100.0;
 const HOUR_S: i64 = 3600;
 
-/// Hours from one name to the next, so that names do not touch.
+/// Returns the number of hours from one label to the next, so that labels do not touch.
 fn named_every_hours(hour_width: f32) -> i64 {
     [1, 2, 3, 6, 12]
         .into_iter()
@@ -25,8 +25,8 @@ fn named_every_hours(hour_width: f32) -> i64 {
         .unwrap_or(24)
 }
 
-/// Paints the background of the lanes and a line for each full hour in `lanes`, and the
-/// names of the hours in `names`, the band above.
+/// Paints the background of the lanes, a line for each full hour in `lanes`, and the labels of the
+/// hours in `names`, the band above.
 pub(super) fn show(ui: &Ui, scale: &TimeAxis, lanes: Rect, names: Rect) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(lanes, 0, t.bg0);
@@ -40,8 +40,8 @@ pub(super) fn show(ui: &Ui, scale: &TimeAxis, lanes: Rect, names: Rect) {
     }
 }
 
-/// The names of hours, each with the x of its centre. A name that would reach beyond the end
-/// of the lane is left out.
+/// Returns the labels of hours, each with the x of its centre. Omits labels that would extend
+/// beyond the end of the lane.
 fn hour_names(ui: &Ui, scale: &TimeAxis, names: Rect) -> Vec<(f32, String)> {
     let every_s = named_every_hours(scale.hour_width()) * HOUR_S;
     let hours = scale.multiples(every_s).filter(|time| is_full_hour(*time));
@@ -52,7 +52,7 @@ fn hour_names(ui: &Ui, scale: &TimeAxis, names: Rect) -> Vec<(f32, String)> {
     named.filter(fits).collect()
 }
 
-/// Paints the now-line through `y`, with its triangle on top, and a dashed line for the time that
+/// Paints the now-line through `y` with its triangle on top, and a dashed line for the time that
 /// the sky plot shows.
 pub(super) fn time_lines(ui: &Ui, scale: &TimeAxis, model: &TimelineModel<'_>, y: Rangef) {
     let t = theme::tokens(ui);
@@ -79,7 +79,7 @@ mod tests {
     #[test]
     fn no_name_of_an_hour_reaches_beyond_the_lane() {
         let names = Rect::from_min_size(pos2(100.0, 0.0), vec2(504.0, 24.0));
-        // From each time to the next, the end of the strip comes nearer to the last hour.
+        // With each of these times, the end of the strip comes nearer to the last hour.
         let ends = ["22:56", "22:20", "22:12", "22:11", "22:10"];
         let last = ends.map(|end| {
             let now = format!("2026-11-14T{end}:00Z").parse::<Timestamp>().unwrap();

@@ -21,26 +21,26 @@ use crate::{
     },
 };
 
-/// Frame of the selected bar: width of its line and gap to the bar.
+/// Frame of the selected bar: width of its line, and gap to the bar, points.
 const FRAME: f32 = 1.5;
 const FRAME_GAP: f32 = 1.5;
-/// Minimum height of a bar, so that it stays visible in a low lane.
+/// Min height of a bar, points, so that it stays visible in a low lane.
 const LOWEST: f32 = 8.0;
 const TRIANGLE: egui::Vec2 = vec2(9.0, 7.0);
-/// Gap at the left and the right of a name, in points.
+/// Gap at the left and the right of a name, points.
 const GAP: f32 = 1.0;
-/// Gap between the bars and the lower edge of the lane, for the frame.
+/// Gap between the bars and the lower edge of the lane, for the frame, points.
 const FLOOR: f32 = 4.0;
 /// Room above the highest bar for a name, the sign for lost seconds and the frame.
 const ABOVE: f32 = 25.0;
 
-/// The bar heights that fit `lane`; in a low lane the high bars shrink below `span`.
+/// Returns the bar heights that fit `lane`; in a low lane the high bars shrink below `span`.
 pub(super) fn fitting(span: &RangeInclusive<f32>, lane: Rect) -> RangeInclusive<f32> {
     let highest = (lane.height() - FLOOR - ABOVE).clamp(LOWEST, *span.end());
     span.start().min(highest)..=highest
 }
 
-/// From this number of bars on, one stands for all that begin within as many points.
+/// Number of bars from which one bar represents all bars that begin within a few points.
 const MANY: usize = 400;
 const APART: f32 = 2.0;
 
@@ -57,8 +57,8 @@ pub(super) struct Standing<'a> {
     rect: Rect,
 }
 
-/// Places the wanted bars of the window in `lane`, in the order of AOS, with heights that grow with
-/// the maximum elevation from 0° to 90°. If there are very many, only those that can be told apart.
+/// Places the accepted bars of the window in `lane`, in order of AOS. Their heights grow with the
+/// maximum elevation from 0° to 90°. Keeps only distinguishable bars if there are very many.
 pub(super) fn stand<'a>(
     bars: &'a [Bar<'a>],
     is_shown: impl Fn(&Bar<'_>) -> bool,
@@ -81,7 +81,7 @@ pub(super) fn stand<'a>(
     if standing.len() > MANY { thinned(standing, selected) } else { standing }
 }
 
-/// One of all bars that begin at the same place: the selected one, else one that is taken, else the
+/// Keeps one of all bars that begin at the same place: the selected bar, else a taken bar, else the
 /// highest.
 fn thinned(standing: Vec<Standing<'_>>, selected: Option<(u32, Timestamp)>) -> Vec<Standing<'_>> {
     let column = |one: &Standing<'_>| (one.rect.left() / APART).floor() as i32;
@@ -98,7 +98,7 @@ fn thinned(standing: Vec<Standing<'_>>, selected: Option<(u32, Timestamp)>) -> V
     apart
 }
 
-/// Paints the bars of an antenna, later ones above earlier ones.
+/// Paints the bars of an antenna, later bars above earlier ones.
 pub(super) fn show(
     ui: &Ui,
     standing: &[Standing<'_>],
@@ -144,7 +144,7 @@ pub(super) fn show(
     }
 }
 
-/// The form of a bar, the same as in the lanes of the plan.
+/// Returns the form of a bar, the same as in the lanes of the plan.
 fn form(bar: &Bar<'_>) -> BarForm {
     match bar.state {
         State::Plan(plan::Standing::Flown(flown)) if flown.cause.is_none() => BarForm::Done,
@@ -157,8 +157,8 @@ fn form(bar: &Bar<'_>) -> BarForm {
     }
 }
 
-/// Paints the names that fit above the bars: the selected one first, then those of
-/// passes that are taken.
+/// Paints the names that fit above the bars: first the selected one, then the names of taken
+/// passes.
 pub(super) fn show_names(
     ui: &Ui,
     standing: &[Standing<'_>],
@@ -187,7 +187,7 @@ pub(super) fn show_names(
             Placed::Short(rect) => (short.as_str(), rect),
             Placed::Full(rect) => (one.bar.name.text(), rect),
         };
-        // Covers the now-line and the grid behind the letters.
+        // The fill covers the now-line and the grid behind the letters.
         ui.painter().rect_filled(rect, 0, t.bg0);
         let colour = if one.bar.is_taken() { t.t1 } else { t.other };
         paint::text(ui, rect.center(), Align2::CENTER_CENTER, name, text::caption(), colour);
@@ -195,14 +195,14 @@ pub(super) fn show_names(
 }
 
 impl Standing<'_> {
-    /// The rectangle of the sign for lost seconds.
+    /// Returns the rectangle of the sign for lost seconds.
     fn triangle(&self) -> Option<Rect> {
         let shown = self.bar.loses && self.bar.is_taken();
         let low = pos2(self.rect.center().x, self.rect.top() - FRAME - FRAME_GAP);
         shown.then(|| Align2::CENTER_BOTTOM.anchor_size(low, TRIANGLE))
     }
 
-    /// The rectangle of `name`: above the bar, moved aside at the ends of `room`.
+    /// Returns the rectangle of `name` above the bar, moved inwards at the ends of `room`.
     fn name_rect(&self, ui: &Ui, name: &str, room: Rect) -> Rect {
         let galley =
             ui.painter().layout_no_wrap(name.to_owned(), text::caption(), theme::tokens(ui).t1);
@@ -236,7 +236,7 @@ fn node(
     response
 }
 
-/// How a pass stands, each remark after a comma.
+/// Describes the status of a pass, each remark after a comma.
 fn remarks(bar: &Bar<'_>, antenna: &str, model: &TimelineModel<'_>) -> String {
     let stands = match bar.state {
         State::Mount { can_track: true } => None,
@@ -262,7 +262,7 @@ fn tool_tip(bar: &Bar<'_>, now: Timestamp, remarks: &str) -> String {
     format!("{}\n{times}{}{remarks}", bar.name.text(), max_elevation(bar, "\n"))
 }
 
-/// The maximum elevation after `separator`; empty where it is not known any more.
+/// Returns the maximum elevation after `separator`; empty if it is no longer known.
 fn max_elevation(bar: &Bar<'_>, separator: &str) -> String {
     let elevation = bar.max_elevation_deg.map(|deg| format::degrees(deg, 0));
     elevation.map_or_else(String::new, |deg| format!("{separator}max {deg}"))

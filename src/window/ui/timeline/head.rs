@@ -23,8 +23,8 @@ enum Mark {
     Triangle,
 }
 
-/// Entries from right to left; those without room beside the title are left out, from the
-/// left.
+/// Returns the legend entries from right to left. The strip leaves out the leftmost entries if
+/// space is short.
 fn legend(model: &TimelineModel<'_>) -> Vec<(Mark, &'static str)> {
     let lost = (Mark::Triangle, "part lost");
     if !model.is_planned {

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use egui::{Rect, vec2};
 
-/// The wanted place of a name, in its two lengths.
+/// A requested place of a name, in two lengths.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::ui) struct Wish {
     /// Room for the short name.
@@ -13,10 +13,10 @@ pub(in crate::ui) struct Wish {
     pub full: Rect,
 }
 
-/// Outcome of a wish.
+/// Outcome of a request for a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::ui) enum Placed {
-    /// No name fits.
+    /// No room for any name.
     Out,
     /// The short name and its place.
     Short(Rect),
@@ -24,15 +24,15 @@ pub(in crate::ui) enum Placed {
     Full(Rect),
 }
 
-/// Shifts of a short name to try, in points, best first.
+/// Horizontal shifts of a short name to try, points, the best first.
 const OFFSETS: [f32; 5] = [0.0, 3.0, -3.0, 6.0, -6.0];
 
-/// Free room on both sides of a full name, in points.
+/// Free room on both sides of a full name, points.
 const AIR: f32 = 4.0;
 
-/// Assigns the room above the bars: first as many short names as fit, earlier wishes first,
-/// then full names where room remains. No two names overlap, and none covers an obstacle or
-/// leaves `room`.
+/// Assigns the room above the bars. As many short names as possible come first, in the order of the
+/// wishes, then full names where room remains. No name overlaps another name or an obstacle, and
+/// none leaves `room`.
 pub(in crate::ui) fn place(wishes: &[Wish], obstacles: &[Rect], room: Rect) -> Vec<Placed> {
     let mut in_the_way = Columns::new(room);
     for obstacle in obstacles {
@@ -61,7 +61,7 @@ pub(in crate::ui) fn place(wishes: &[Wish], obstacles: &[Rect], room: Rect) -> V
     placed
 }
 
-/// Rectangles by the columns of the room that they reach into, so that few are compared.
+/// Rectangles, sorted into columns of the room, so that the code compares only a few.
 struct Columns {
     left: f32,
     columns: Vec<Vec<Rect>>,
@@ -75,7 +75,8 @@ impl Columns {
         Self { left: room.left(), columns: vec![Vec::new(); count] }
     }
 
-    /// The columns that `rect` reaches into; the first and the last go on beyond the room.
+    /// Returns the columns that `rect` touches. The first and the last column extend beyond the
+    /// room.
     fn reached(&self, rect: Rect) -> RangeInclusive<usize> {
         let column = |x: f32| ((x - self.left) / Self::WIDTH).floor().max(0.0) as usize;
         let last = self.columns.len() - 1;
@@ -89,7 +90,7 @@ impl Columns {
         }
     }
 
-    /// Returns `true` if no rectangle but `own` overlaps `rect`.
+    /// Returns `true` if no rectangle except `own` overlaps `rect`.
     fn leave(&self, rect: Rect, own: Option<Rect>) -> bool {
         let columns = self.columns.get(self.reached(rect)).into_iter().flatten();
         !columns.flatten().any(|other| Some(*other) != own && overlap(*other, rect))
@@ -101,9 +102,9 @@ fn overlap(a: Rect, b: Rect) -> bool {
     a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y
 }
 
-/// Shortens a name to two to five characters: "NOAA 20" to N20, "METOP-B" to MB, "TERRA" to
-/// TE. Short words and digits stay whole, the M of "METEOR-M2" appears once, and text in
-/// brackets is dropped.
+/// Shortens a name to two to five characters: "NOAA 20" to N20, "METOP-B" to MB, "TERRA" to TE.
+/// Short words and digits stay whole, the M of "METEOR-M2" appears once, and text in brackets is
+/// dropped.
 pub(in crate::ui) fn short_name(name: &str) -> String {
     let before_brackets = name.split('(').next().unwrap_or(name);
     let words: Vec<&str> =

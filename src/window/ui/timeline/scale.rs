@@ -1,4 +1,4 @@
-//! The scales of the strip: times to x, elevations to bar heights.
+//! The scales of the strip, which map times to x and elevations to bar heights.
 
 use std::ops::RangeInclusive;
 
@@ -7,13 +7,13 @@ use jiff::Timestamp;
 
 use crate::{astro::time::add_seconds, ui::time_axis::TimeAxis};
 
-/// Past time in the strip, so that a pass in progress keeps its bar.
+/// Past time in the strip, seconds, so that a current pass keeps its bar.
 const PAST_S: f64 = 600.0;
 const MINUTE_S: i64 = 60;
 const HOUR_S: f64 = 3600.0;
 
-/// The axis of `hours` around `now`. It begins at a whole minute, so that it stands still for a
-/// minute.
+/// Returns the axis of `hours` around `now`. The axis begins at a whole minute, so that it stands
+/// still for a minute.
 pub(super) fn axis(now: Timestamp, hours: f64, x: Rangef) -> TimeAxis {
     let second = now.as_second();
     let minute = second - second.rem_euclid(MINUTE_S);
@@ -22,7 +22,7 @@ pub(super) fn axis(now: Timestamp, hours: f64, x: Rangef) -> TimeAxis {
     TimeAxis::lasting(add_seconds(start, -PAST_S), hours * HOUR_S, x)
 }
 
-/// Height of a bar for a maximum elevation, in points.
+/// Returns the height of a bar for a maximum elevation, points.
 pub(super) fn bar_height(max_elevation_deg: f64, heights: &RangeInclusive<f32>) -> f32 {
     let share = (max_elevation_deg / 90.0).clamp(0.0, 1.0) as f32;
     if share.is_nan() { *heights.start() } else { lerp(heights.clone(), share) }

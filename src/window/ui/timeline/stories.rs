@@ -45,7 +45,7 @@ fn bars() -> Vec<Bar<'static>> {
 
 type Picked = Option<(u32, Timestamp)>;
 
-/// A window that shows only the strip and remembers the picked bar.
+/// Returns a window that shows only the strip and records the clicked bar.
 fn window(size: egui::Vec2, bars: Vec<Bar<'static>>) -> Harness<'static, Picked> {
     testing::window(size, None, move |ui, picked: &mut Picked| {
         let model = TimelineModel {
@@ -165,7 +165,7 @@ fn a_strip_without_passes_or_room_is_fine() {
     window(vec2(20.0, 8.0), bars()).run();
 }
 
-/// The texts of the last frame with their places.
+/// Returns the texts of the last frame with their places.
 fn texts(harness: &Harness<'_, Picked>) -> Vec<(String, Rect)> {
     fn collect(shape: &egui::Shape, found: &mut Vec<(String, Rect)>) {
         match shape {

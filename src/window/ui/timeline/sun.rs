@@ -6,7 +6,7 @@ use jiff::Timestamp;
 use super::SunSpan;
 use crate::ui::{format, text, theme, time_axis::TimeAxis, widgets::paint};
 
-/// Gap between two captions below the lane, in points.
+/// Gap between two captions below the lane, points.
 const GAP: f32 = 8.0;
 
 /// Shows the spans in `bar`, and their captions in `words`, the band below.
@@ -41,7 +41,7 @@ pub(super) fn show(
     }
 }
 
-/// The caption of a span: the state at the start of the window, or the change that begins
+/// Returns the caption of a span: the state at the start of the window, or the change that begins
 /// the span.
 fn caption(span: &SunSpan, scale: &TimeAxis, now: Timestamp) -> String {
     let began = format::minute(span.start, now);

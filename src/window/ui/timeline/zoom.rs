@@ -1,10 +1,9 @@
 //! The number of hours in the strip.
 
-/// Selectable values.
+/// Selectable numbers of hours.
 const HOURS: [u32; 6] = [1, 2, 4, 8, 12, 24];
 
-/// Number of hours in the strip: the default of its form, until the operator chooses more
-/// or fewer.
+/// Number of hours in the strip: the default of its form until the operator chooses another number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Zoom {
     requested: Option<u32>,
@@ -18,23 +17,23 @@ impl Default for Zoom {
 }
 
 impl Zoom {
-    /// A zoom with an earlier choice, in hours.
+    /// Creates a zoom with an earlier choice, hours.
     pub fn new(requested: Option<u32>) -> Self {
         Self { requested: requested.filter(|hours| HOURS.contains(hours)), ..Self::default() }
     }
 
-    /// The operator's choice, in hours; `None` for the default.
+    /// Returns the operator's choice, hours; `None` for the default.
     pub fn requested(&self) -> Option<u32> {
         self.requested
     }
 
-    /// The hours to show in a form with the default `default`.
+    /// Returns the number of hours to show in a form with the default `default`.
     pub fn hours(&mut self, default: u32) -> u32 {
         self.shown = self.requested.unwrap_or(default);
         self.shown
     }
 
-    /// Shows fewer hours (`closer` positive) or more.
+    /// Shows fewer hours if `closer` is positive, otherwise more.
     pub fn change(&mut self, closer: isize) {
         let now = HOURS.iter().position(|hours| *hours >= self.shown).unwrap_or_default();
         let requested = now.saturating_add_signed(-closer).min(HOURS.len() - 1);
@@ -42,7 +41,7 @@ impl Zoom {
         self.shown = self.requested.unwrap_or(self.shown);
     }
 
-    /// Returns to the default.
+    /// Resets the number of hours to the default.
     pub fn reset(&mut self) {
         self.requested = None;
     }

@@ -1,4 +1,4 @@
-//! The chips of the antennas, and one for all that have no room.
+//! The chips of the antennas, and one chip for all antennas without room.
 
 use egui::{Align2, Popup, Rect, Response, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
@@ -16,12 +16,12 @@ use crate::{
 };
 
 const MORE_WIDTH: f32 = 56.0;
-/// Its further width for the word of an alarm.
+/// Additional width of that chip for the word of an alarm, points.
 const ALARM_WIDTH: f32 = 38.0;
-/// More chips than this keep glyph and name only.
+/// Max number of chips with details; more chips show only glyph and name.
 const FULL_CHIPS: usize = 4;
 
-/// Shows the chips at the right end of `rect` and returns their left end.
+/// Shows the chips at the right end of `rect`. Returns their left end.
 pub(super) fn show(
     ui: &Ui,
     rect: Rect,
@@ -36,7 +36,7 @@ pub(super) fn show(
         (false, false) => ChipForm::OneLine,
     };
     let widths: Vec<f32> = chips.iter().map(|chip| chip.width(ui, form)).collect();
-    // Room for the word is kept for any alarm, of whichever antenna is hidden.
+    // The chip reserves room for an alarm of any antenna, shown or hidden.
     let any_alarm = chips.iter().any(|chip| chip.alarm.is_some());
     let more_width = if any_alarm { MORE_WIDTH + ALARM_WIDTH } else { MORE_WIDTH };
     let shown = how_many_fit(&widths, gap, rect.width(), more_width);
@@ -73,7 +73,8 @@ pub(super) fn show(
     start
 }
 
-/// Number of chips that have room, beside the chip for the others, as wide as `more`, if not all fit.
+/// Returns the number of chips that fit. If not all fit, the chip for the others takes the width
+/// `more`.
 fn how_many_fit(widths: &[f32], gap: f32, room: f32, more: f32) -> usize {
     let all: f32 = widths.iter().map(|width| width + gap).sum::<f32>() - gap;
     if all <= room {
@@ -89,7 +90,7 @@ fn how_many_fit(widths: &[f32], gap: f32, room: f32, more: f32) -> usize {
         .count()
 }
 
-/// Shows the chip that stands for the hidden ones and has their worst state.
+/// Shows the chip that represents the hidden chips and has their worst state.
 fn more_chip(ui: &Ui, rect: Rect, hidden: &[ChipModel<'_>]) -> Response {
     let t = theme::tokens(ui);
     let worst = hidden.iter().map(|chip| chip.link).max_by_key(|link| badness(*link));

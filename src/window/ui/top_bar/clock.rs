@@ -1,4 +1,4 @@
-//! The clock: UTC, with date and local time beside it or in a tool-tip.
+//! The clock: UTC, with date and local time next to it or in a tool-tip.
 
 use egui::{Align2, Color32, Id, LayerId, Order, Rect, Ui, accesskit::Live, pos2, vec2};
 
@@ -9,53 +9,53 @@ use crate::ui::{
     widgets::paint,
 };
 
-/// Width of the letters UTC and the space after them.
+/// Width of the letters UTC and the space after them, points.
 const UTC_WIDTH: f32 = 34.0;
-/// Gap between the local time and the health of the clock.
+/// Gap between the local time and the health of the clock, points.
 const HEALTH_GAP: f32 = 10.0;
-/// Distance from the centre of the bar to the centre of each of two lines.
+/// Distance from the centre of the bar to the centre of each of two lines, points.
 const LINE: f32 = 8.0;
-/// Minimum width for a sentence in two lines; below it the sentence takes three.
+/// Min width of a sentence in two lines, points; a narrower sentence takes three.
 const TWO_LINES: f32 = 180.0;
-/// Below this width, words would break.
+/// Width below which words would break, points.
 const NARROWEST: f32 = 110.0;
 
-/// Formatted times.
+/// Formatted times for the clock.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ClockModel<'a> {
-    /// UTC, hh:mm:ss.
+    /// UTC as hh:mm:ss.
     pub utc: &'a str,
     /// Day of the week and date, UTC.
     pub date: &'a str,
-    /// Local time with the name or offset of its zone; `None` where it is not to be shown.
+    /// Local time with the name or offset of its zone; `None` if the operator has hidden it.
     pub local: Option<&'a str>,
-    /// Health of the clock.
+    /// Health of the clock, next to the local time.
     pub health: ClockHealth<'a>,
 }
 
-/// Health of the clock.
+/// Health of the clock in words.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ClockHealth<'a> {
-    /// Colour and shape of the health.
+    /// Rating that sets colour and shape of the health.
     pub mood: ClockMood,
-    /// In a few words.
+    /// Short description of the health.
     pub words: &'a str,
-    /// Explanation.
+    /// Explanation of the health.
     pub sentence: &'a str,
 }
 
 /// Rating of the health of the clock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ClockMood {
-    /// The clock is good.
+    /// A correct clock.
     Good,
-    /// The clock needs attention: shown also where words have no room.
+    /// A clock that needs attention, shown even where words have no room.
     Bad,
     #[default]
     Unknown,
 }
 
-/// Right end of the clock, and the place of the letters UTC beside it.
+/// The right end of the clock, and the place of the letters UTC next to it.
 pub(super) struct ClockEnds {
     pub(super) time: f32,
     pub(super) utc: Rect,
@@ -76,9 +76,8 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &ClockModel<'_>, wide: bool) -> C
     ClockEnds { time: time.right(), utc }
 }
 
-/// Shows date, local time and health in `rect`, beside and below the letters UTC. Parts that
-/// would be cut are left out; the tool-tip contains them as well. Returns `true` if there
-/// was room.
+/// Shows date, local time and health in `rect`, next to and below the letters UTC. Omits parts that
+/// would be cut; the tool-tip contains all parts. Returns `true` if the date had room.
 pub(super) fn date(ui: &Ui, rect: Rect, model: &ClockModel<'_>) -> bool {
     let t = theme::tokens(ui);
     let local = model.local.unwrap_or_default();
@@ -114,7 +113,7 @@ pub(super) fn date(ui: &Ui, rect: Rect, model: &ClockModel<'_>) -> bool {
     true
 }
 
-/// Shows a triangle below the letters UTC, where the health has no room for words.
+/// Shows a warning triangle below the letters UTC where the health has no room for words.
 pub(super) fn warn(ui: &Ui, utc: Rect, health: &ClockHealth<'_>) {
     let t = theme::tokens(ui);
     let place = paint::square(utc.center() + vec2(0.0, 2.0 * LINE), 14.0);
@@ -127,20 +126,20 @@ fn name_health(ui: &Ui, place: Rect, health: &ClockHealth<'_>) {
     paint::name_text(ui, "clock health", place, &name).on_hover_text(health.sentence);
 }
 
-/// Shows in `rect` of `bar` that STOP is not confirmed.
+/// Shows the sentence that STOP is not confirmed in `rect` of `bar`.
 pub(super) fn not_confirmed(ui: &Ui, bar: Rect, rect: Rect, sentence: &str) {
     let t = theme::tokens(ui);
     about_stop(ui, (bar, rect), sentence, (t.badbg, t.bad), Live::Assertive);
 }
 
-/// Shows in `rect` of `bar` which antennas STOP left alone.
+/// Shows the antennas that STOP left alone in `rect` of `bar`.
 pub(super) fn left_out(ui: &Ui, bar: Rect, rect: Rect, sentence: &str) {
     let t = theme::tokens(ui);
     about_stop(ui, (bar, rect), sentence, (t.warnbg, t.warn), Live::Polite);
 }
 
-/// A sentence that does not fit between the clock and the chips stands below the bar, over
-/// everything else.
+/// Shows a sentence about STOP. A sentence that does not fit between the clock and the chips stands
+/// below the bar, above all other parts.
 fn about_stop(
     ui: &Ui,
     (bar, rect): (Rect, Rect),

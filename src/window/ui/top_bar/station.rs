@@ -13,7 +13,7 @@ use crate::{
     },
 };
 
-/// Width of the selector without coordinates.
+/// Returns the width of the selector without coordinates, points.
 pub(super) fn one_line_width(ui: &Ui, name: &str) -> f32 {
     (paint::text_width(ui, name, text::sized(14.0, Weight::SemiBold)) + 48.0).min(170.0)
 }
@@ -78,7 +78,7 @@ fn menu(ui: &mut Ui, model: &TopBarModel<'_>, commands: &mut Vec<UiCommand>) {
     }
 }
 
-/// The other stations. The one in the window is marked, and a click on it changes nothing.
+/// Shows the known stations. Marks the current station, and ignores a click on it.
 fn stations(ui: &mut Ui, model: &TopBarModel<'_>, commands: &mut Vec<UiCommand>) {
     for station in &model.stations.stations {
         let is_open = !model.demo && model.stations.open.as_ref() == Some(&station.path);

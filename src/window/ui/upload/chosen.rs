@@ -23,10 +23,10 @@ use crate::{
     },
 };
 
-/// Maximum number of search results.
+/// Max number of search results.
 const OFFERED: usize = 5;
 const ROW: f32 = 24.0;
-/// Side of the mark of an age.
+/// Side of the mark of an age, points.
 const MARK: f32 = 12.0;
 const OMIT: &str = "Omit";
 
@@ -37,9 +37,9 @@ enum Change {
     Favourites,
 }
 
-/// `satellite` is the satellite on the unit: it stays the one to follow until the operator marks
-/// another. `None` if it was not read yet. Where it is not in the file, the selected satellite is
-/// to be followed, else the first.
+/// Shows the chosen satellites. `satellite` is the satellite on the unit, `None` if it was not read
+/// yet. The unit continues to follow it until the operator marks another. If the file does not
+/// contain it, the unit will follow the selected satellite, or else the first.
 pub(super) fn show(
     ui: &mut Ui,
     model: &Model,
@@ -132,7 +132,7 @@ fn row(
     let name = if object.name.is_empty() { number.to_string() } else { object.name.clone() };
     let age_s = object.epoch.map(|epoch| seconds_between(epoch, model.now));
     let age = age_s.map_or_else(|| "no elements".to_owned(), format::age);
-    // As in the table of the elements.
+    // The table of the elements uses the same colours.
     let tone = catalog.get(number).map_or(Tone::Caution, |elements| age_tone(elements, model.now));
     let (mark, colour) = age_look(tone, t);
     let spacing = ui.spacing().item_spacing.x;
@@ -216,7 +216,7 @@ fn search(ui: &mut Ui, catalog: &Catalog, form: &mut Form, change: &mut Option<C
     }
 }
 
-/// Shows a button with a longer accessible name; returns `true` when it was clicked.
+/// Shows a button with a longer accessible name. Returns `true` on a click.
 pub(super) fn named(ui: &mut Ui, enabled: bool, word: &str, name: &str) -> bool {
     let response = ui.add_enabled(enabled, Button::new(word));
     response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, name));

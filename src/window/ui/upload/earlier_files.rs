@@ -1,4 +1,4 @@
-//! Earlier files of the unit, which can be restored.
+//! Earlier files of the unit, which the operator can restore.
 
 use egui::{RichText, Sense, Ui, vec2};
 
@@ -22,7 +22,7 @@ use crate::{
     },
 };
 
-/// Number of hash digits shown to tell files apart.
+/// Number of hash digits shown to distinguish files.
 const HASH_DIGITS: usize = 12;
 const TITLE: &str = "Kept on this computer";
 
@@ -44,7 +44,7 @@ pub(super) fn show(
     }
     let t = theme::tokens(ui);
     card::show(ui, f32::INFINITY, |ui| {
-        // Closed, the list leaves the room below to the satellites.
+        // A closed list leaves the room below to the satellites.
         if let Some(Ok(list)) = &kept_files.list
             && !list.is_empty()
         {

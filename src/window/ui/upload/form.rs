@@ -23,12 +23,12 @@ use crate::{
     },
 };
 
-/// Widths of a label and, where there is room, of its field.
+/// Width of a label, and max width of its field, points.
 const WIDTHS: [f32; 2] = [72.0, 360.0];
 const LOG_IN: f32 = 168.0;
 const SSH: &str = "22";
 
-/// Input for one antenna.
+/// Input of the operator for one antenna.
 pub(super) struct Form {
     takes: &'static ElementFiles,
     pub(super) file: String,
@@ -40,16 +40,16 @@ pub(super) struct Form {
     pub(super) key_file: String,
     /// Catalog numbers of the chosen satellites; `None` for the favourites.
     pub(super) numbers: Option<Vec<u32>>,
-    /// The satellite that the operator has marked for the unit to follow.
+    /// Satellite that the operator has marked for the unit to follow.
     pub(super) marked: Option<u32>,
-    /// The satellite that the unit shall follow.
+    /// Satellite that the unit will follow.
     pub(super) satellite: Option<u32>,
     pub(super) search: String,
     pub(super) kept_is_open: bool,
     checked: Option<Checked>,
 }
 
-/// The chosen satellites, checked; kept until something they depend on changes.
+/// The chosen satellites, checked. The result stays valid until an input changes.
 struct Checked {
     catalog: Arc<Catalog>,
     numbers: Vec<u32>,
@@ -57,7 +57,7 @@ struct Checked {
 }
 
 impl Form {
-    /// The form prefilled from the settings of `antenna`, whose unit accepts these files.
+    /// Returns the form prefilled from the settings of `antenna`, whose unit accepts these files.
     pub(super) fn new(antenna: &Antenna, takes: &'static ElementFiles) -> Self {
         let connection = &antenna.connection;
         Self {
@@ -90,7 +90,7 @@ impl Form {
         }
     }
 
-    /// The chosen satellites as they are in `catalog`.
+    /// Returns the chosen satellites as they are in `catalog`.
     pub(super) fn chosen(&mut self, catalog: &Arc<Catalog>, favourites: &[u32]) -> Arc<Chosen> {
         let numbers = self.numbers.as_deref().unwrap_or(favourites);
         let is_known = |checked: &Checked| {
@@ -104,12 +104,12 @@ impl Form {
         Arc::clone(&self.checked.insert(checked).chosen)
     }
 
-    /// Catalog numbers of the satellites checked last.
+    /// Returns the catalog numbers of the last checked satellites.
     pub(super) fn known_numbers(&self) -> Option<&[u32]> {
         self.checked.as_ref().map(|checked| checked.numbers.as_slice())
     }
 
-    /// The file of the chosen satellites, or the reason why there is none.
+    /// Returns the file of the chosen satellites, or the reason why there is none.
     pub(super) fn chosen_file(
         &mut self,
         catalog: &Arc<Catalog>,
@@ -118,12 +118,12 @@ impl Form {
         self.chosen(catalog, favourites).file.clone().map_err(|error| error.to_string())
     }
 
-    /// The name of the file, as typed.
+    /// Returns the entered name of the file.
     pub(super) fn file_name(&self) -> Result<FileName, FileNameError> {
         FileName::new(self.file.trim(), self.takes)
     }
 
-    /// The server of the unit's files.
+    /// Returns the server of the unit's files.
     pub(super) fn peer(&self) -> Result<Peer, String> {
         let host = self.host.trim();
         if host.is_empty() || host.contains(char::is_whitespace) {
@@ -134,7 +134,7 @@ impl Form {
         Ok(Peer { host: host.to_owned(), port })
     }
 
-    /// The order, or what the operator has to do for it.
+    /// Returns the order, or the input that is missing for an order.
     pub(super) fn order(
         &self,
         antenna: &str,
@@ -167,7 +167,7 @@ impl Form {
     }
 }
 
-/// The host of an address such as `unit:4001` or `[::1]:4001`.
+/// Returns the host of an address such as `unit:4001` or `[::1]:4001`.
 fn host(address: &str) -> String {
     if let Ok(address) = address.parse::<SocketAddr>() {
         return address.ip().to_string();

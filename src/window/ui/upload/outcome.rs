@@ -19,7 +19,7 @@ use crate::{
     },
 };
 
-/// Maximum number of objects of a file listed with their ages.
+/// Max number of objects of a file listed with their ages.
 const LISTED: usize = 20;
 
 pub(super) fn show(
@@ -103,7 +103,7 @@ fn file(ui: &mut Ui, uploaded: &Uploaded) {
     fact(ui, "SHA-256", &uploaded.sha256.to_string());
 }
 
-/// The age of each object's elements.
+/// Shows the age of each object's elements.
 pub(super) fn objects(ui: &mut Ui, objects: &[FileObject], now: Timestamp) {
     let t = theme::tokens(ui);
     let one = |object: &FileObject| {

@@ -20,7 +20,7 @@ use crate::{
     },
 };
 
-/// Descriptions of the steps. The first covers everything before the transfer, the last
+/// Descriptions of the steps. The first step covers everything before the transfer, the last
 /// everything after it.
 const STEPS: [&str; 8] = [
     "Connect, check the host key, log in",

@@ -9,13 +9,13 @@ use crate::{
     ui::dialogs::{self, Answer, PasswordDialog, SecretAnswer},
 };
 
-/// Input into the questions.
+/// Input of the operator into the questions.
 #[derive(Default)]
 pub(super) struct Questions {
     password: PasswordDialog,
 }
 
-/// Shows the open question, if any. Esc says no.
+/// Shows the open question, if any. Esc answers no.
 pub(super) fn show(ui: &Ui, model: &Model, state: &mut Questions, commands: &mut Vec<UiCommand>) {
     let ask = match &model.uploads.stage {
         Stage::AsksAboutTracking(busy) => yes_or_no(

@@ -27,23 +27,25 @@ use crate::{
 };
 
 const RADIUS: u8 = 6;
-/// Widths of the list in a small and in the usual window: it leaves the countdown of the pass free.
+/// Width of the list in a small and in a normal window, points. The list leaves the countdown of
+/// the pass free.
 const WIDTHS: [f32; 2] = [288.0, 328.0];
-/// Distance of the list from the edge of the window.
+/// Distance of the list from the edge of the window, points.
 const EDGE: f32 = 8.0;
-/// Height of the line with the button for all alarms, and of a heading.
+/// Height of the line with the button for all alarms, and of a heading, points.
 const HEADER_HEIGHT: f32 = 30.0;
 const ALL_BUTTON: f32 = 140.0;
-/// The bell goes on and off once a second until the list was opened.
+/// Half of the blink period of the bell, seconds. The bell blinks until the operator opens the
+/// list.
 const HALF_BLINK_S: f64 = 0.5;
 
-/// Part of the list.
+/// A section of the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Section {
-    /// Stands, or was not acknowledged.
+    /// Alarms that are active or not acknowledged.
     Open,
     Shelved,
-    /// Over and seen.
+    /// Alarms that are over and acknowledged.
     Over,
 }
 
@@ -67,14 +69,14 @@ impl Section {
 
 #[derive(Debug, Clone, Copy)]
 pub struct AlarmRow<'a> {
-    /// Identifies the alarm in the operator's answer.
+    /// Id of the alarm for the operator's answer.
     pub id: u64,
     pub priority: Priority,
     pub state: AlarmState,
-    /// It follows from an alarm above it.
+    /// `true` if the alarm follows from an alarm above it.
     pub follows: bool,
     pub text: &'a str,
-    /// Times of the alarm and how often it came, formatted.
+    /// Formatted times of the alarm, and its number of occurrences.
     pub time: &'a str,
     pub state_words: &'a str,
     /// The antenna that the alarm offers to move away from its position.
@@ -103,9 +105,9 @@ impl AlarmRow<'_> {
 
 #[derive(Debug, Clone, Copy, Default)]
 pub struct AlarmModel<'a> {
-    /// In the order of the list, section by section.
+    /// Rows in the order of the list, section by section.
     pub rows: &'a [AlarmRow<'a>],
-    /// An alarm is newer than the last opening of the list; the bell blinks.
+    /// `true` if an alarm is newer than the last opening of the list, so that the bell blinks.
     pub unopened: bool,
 }
 
@@ -114,7 +116,7 @@ impl AlarmModel<'_> {
         self.rows.iter().filter(|row| Section::new(row.state) == Section::Open).count()
     }
 
-    /// The colour of the gravest alarm that is not shelved.
+    /// Returns the colour of the most severe alarm that is not shelved.
     fn colour(&self, t: &Tokens) -> Color32 {
         let open = || self.rows.iter().filter(|row| Section::new(row.state) == Section::Open);
         if open().any(AlarmRow::is_standing_red) {
@@ -131,8 +133,7 @@ impl AlarmModel<'_> {
     }
 }
 
-/// Shows the button in `rect` and, when it was clicked, the list below the bar, which ends at
-/// `below`.
+/// Shows the button in `rect`, and after a click the list below the bar, which ends at `below`.
 pub fn show(
     ui: &Ui,
     (rect, below): (Rect, f32),
@@ -198,7 +199,7 @@ fn button(ui: &Ui, rect: Rect, model: &AlarmModel<'_>, one_line: bool) -> Respon
         paint::text(ui, down, Align2::LEFT_CENTER, second, text::small(), t.t2);
     }
     paint::focus_ring(ui, &response, RADIUS);
-    // The number alone does not say what it counts.
+    // The tool-tip explains the number, which has no label in one line.
     if one_line { response.on_hover_text(name) } else { response }
 }
 
@@ -232,7 +233,7 @@ fn list(ui: &mut Ui, model: &AlarmModel<'_>, opens: bool, commands: &mut Vec<UiC
     }
     let mut area = egui::ScrollArea::vertical().max_height(8.0 * row::HEIGHT);
     if opens {
-        // The gravest alarm is the first, wherever the list was left.
+        // The list opens at the top with the most severe alarm, wherever the operator left it.
         area = area.vertical_scroll_offset(0.0);
     }
     area.show(ui, |ui| {
@@ -291,7 +292,7 @@ mod tests {
         },
     ];
 
-    /// The height of the row of an alarm with this text.
+    /// Returns the height of the row of an alarm with this text, points.
     fn row_height(text: &str) -> f32 {
         let row = AlarmRow { text, ..ROWS[0] };
         let mut window = testing::window([500.0, 300.0], (), move |ui, ()| {

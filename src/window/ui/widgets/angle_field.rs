@@ -5,14 +5,14 @@ use egui::{Align2, Frame, Id, Margin, Rect, Response, RichText, Stroke, TextEdit
 use super::input::select_when_tabbed;
 use crate::ui::{text, theme};
 
-/// Corner radius of a field.
+/// Corner radius of a field, points.
 pub const RADIUS: f32 = 4.0;
 
 #[derive(Debug, Clone, Copy)]
 pub struct AngleField<'a> {
-    /// The typed angle was refused; the caller shows the reason below.
+    /// `true` if Azel refused the entered angle; the caller shows the reason below.
     pub refused: bool,
-    /// Shown while the field is empty.
+    /// Hint for an empty field.
     pub hint: &'a str,
     /// Name of the field, with its unit.
     pub name: &'a str,

@@ -11,7 +11,7 @@ use crate::ui::{
     tokens::Tokens,
 };
 
-/// Stands for an unknown value.
+/// Placeholder for an unknown value.
 pub const UNKNOWN: &str = "–";
 const HEAD_HEIGHT: f32 = 18.0;
 const ROW_HEIGHT: f32 = 26.0;
@@ -38,7 +38,8 @@ impl WantedColumn {
         }
     }
 
-    /// Decimals of this column, for a unit whose angles have `of_unit` decimals.
+    /// Returns the number of decimals of this column, for a unit whose angles have `of_unit`
+    /// decimals.
     pub fn decimals(self, of_unit: usize, predicted: usize) -> usize {
         match self {
             Self::Command => of_unit,
@@ -53,7 +54,7 @@ pub struct AxisRow<'a> {
     pub name: &'a str,
     pub wanted_deg: Option<f64>,
     pub actual_deg: Option<f64>,
-    /// Measured minus wanted.
+    /// Measured minus commanded or predicted angle, degrees.
     pub error_deg: Option<f64>,
     pub rate_deg_s: Option<f64>,
 }
@@ -65,18 +66,18 @@ pub struct AxesTable<'a> {
     /// Decimals of measured and commanded values.
     pub decimals: usize,
     pub predicted_decimals: usize,
-    /// Age of the measured values while the unit does not answer in time, such as `4.9 s`.
+    /// Age of the measured values, such as `4.9 s`, while the unit does not answer in time.
     pub age: Option<&'a str>,
     pub axes: &'a [AxisRow<'a>],
 }
 
-/// Height of the table for a number of axes.
+/// Returns the height of the table for a number of axes, points.
 pub fn height(axes: usize) -> f32 {
     HEAD_HEIGHT + ROW_HEIGHT * axes as f32
 }
 
-/// Shows the table in `rect`. Every column keeps its place, also when it is empty. Old
-/// measured values have a hollow ring before them.
+/// Shows the table in `rect`. Empty columns keep their place. A hollow ring marks old measured
+/// values.
 pub fn show(ui: &Ui, rect: Rect, table: &AxesTable<'_>) {
     let t = theme::tokens(ui);
     let wanted_word = table.wanted_column.word();
@@ -102,7 +103,8 @@ pub fn show(ui: &Ui, rect: Rect, table: &AxesTable<'_>) {
     copy_menu::offer(ui, &response, "the measured angles", || measured(table));
 }
 
-/// The measured angles as text, such as `Az 143.17° El 30.02°`, with their age if they are old.
+/// Returns the measured angles as text, such as `Az 143.17° El 30.02°`, with their age if they are
+/// old.
 fn measured(table: &AxesTable<'_>) -> String {
     let axes = table.axes.iter();
     let angles =
@@ -152,12 +154,12 @@ fn show_row(ui: &Ui, row: Rect, table: &AxesTable<'_>, axis: &AxisRow<'_>, t: &T
     paint::name_text(ui, ("axis", axis.name), row, &name);
 }
 
-/// An angle with a typographic minus sign, or a dash.
+/// Returns an angle with a typographic minus sign, or a dash.
 pub fn angle(degrees: Option<f64>, decimals: usize) -> String {
     degrees.map_or_else(|| UNKNOWN.to_owned(), |value| format::number(value, decimals))
 }
 
-/// A number that always shows its sign, or a dash.
+/// Returns a number that always shows its sign, or a dash.
 fn signed(value: Option<f64>, decimals: usize) -> String {
     value.map_or_else(|| UNKNOWN.to_owned(), |value| format::signed(value, decimals))
 }

@@ -9,11 +9,11 @@ use crate::ui::{
     tokens::Tokens,
 };
 
-/// Height of the line.
+/// Height of the line, points.
 pub const HEIGHT: f32 = 22.0;
 /// Position of the half-beam tick, as a part of the bar.
 const TICK_PART: f64 = 0.727;
-/// An error from this part of half the beam on is near the edge.
+/// Share of half the beam above which an error counts as near the edge.
 const NEAR_EDGE: f64 = 0.8;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,7 +33,7 @@ fn place(error_deg: f64, half_beam_deg: f64) -> Place {
     }
 }
 
-/// The part of the bar that is filled, 0 to 1.
+/// Returns the part of the bar that is filled, 0 to 1.
 fn filled_part(error_deg: f64, half_beam_deg: f64) -> f32 {
     if half_beam_deg > 0.0 {
         (error_deg / half_beam_deg * TICK_PART).clamp(0.0, 1.0) as f32
@@ -42,7 +42,7 @@ fn filled_part(error_deg: f64, half_beam_deg: f64) -> f32 {
     }
 }
 
-/// Room for the number with half the beam, and from which width of the bar on it has a name.
+/// Room for the number and half the beam, points, and min width of a bar with a name.
 const NUMBER: f32 = 99.0;
 const NAMED_NUMBER: f32 = 156.0;
 const NAMED_FROM: f32 = 300.0;

@@ -10,11 +10,11 @@ use crate::ui::{
 
 pub const HEIGHT: f32 = 32.0;
 pub const SMALL_HEIGHT: f32 = 24.0;
-/// Width of an icon with the gap behind it.
+/// Width of an icon with the gap after it, points.
 const ICON: f32 = 24.0;
-/// Gap between two buttons side by side.
+/// Gap between two buttons side by side, points.
 pub const GAP: f32 = 8.0;
-/// Corner radius of buttons and jog keys.
+/// Corner radius of buttons and jog keys, points.
 pub const RADIUS: u8 = 5;
 
 /// Emphasis of a button.
@@ -49,23 +49,23 @@ impl<'a> Button<'a> {
         }
     }
 
-    /// The main action of its place.
+    /// Creates a button for the main action of its place.
     pub fn primary(text: &'a str) -> Self {
         Self { weight: Weight::Primary, ..Self::normal(text) }
     }
 
-    /// An unobtrusive button.
+    /// Creates an unobtrusive button.
     pub fn quiet(text: &'a str) -> Self {
         Self { weight: Weight::Quiet, ..Self::normal(text) }
     }
 
-    /// Draws the button dashed and ignores clicks; the caller shows the reason beside it.
+    /// Draws the button dashed and ignores clicks; the caller shows the reason next to it.
     #[must_use]
     pub fn locked(self, locked: bool) -> Self {
         Self { locked, ..self }
     }
 
-    /// Locked where there is a reason, which is its tooltip.
+    /// Locks the button if there is a reason, and shows the reason as a tooltip.
     #[must_use]
     pub fn locked_by(self, reason: Option<&'a str>) -> Self {
         Self { locked: self.locked || reason.is_some(), reason, ..self }
@@ -75,7 +75,7 @@ impl<'a> Button<'a> {
         self.locked
     }
 
-    /// Adds a chevron, for a button that opens something below it.
+    /// Adds a chevron, for a button that opens a part below it.
     #[must_use]
     pub fn chevron(self) -> Self {
         Self { chevron: true, ..self }
@@ -87,7 +87,7 @@ impl<'a> Button<'a> {
         Self { icon: Some(icon), ..self }
     }
 
-    /// The width of the text with its padding.
+    /// Returns the width of the text with its padding, points.
     pub fn width(&self, ui: &Ui) -> f32 {
         let chevron = if self.chevron { 20.0 } else { 0.0 };
         let icon = if self.icon.is_some() { ICON } else { 0.0 };
@@ -149,13 +149,14 @@ pub fn pair(ui: &mut Ui, first: Button<'_>, second: Button<'_>) -> [Response; 2]
     [first.show(ui, "first answer", left), second.show(ui, "second answer", right)]
 }
 
-/// Places for buttons of these widths side by side, of which the last ends at `right`, the middle
-/// of its edge. They are to be shown in this order, in which Tab leads along them.
+/// Returns the places for buttons of these widths side by side. The last button ends at `right`,
+/// the middle of its edge. Show the buttons in this order, which is the Tab order.
 pub fn row<const N: usize>(mut right: Pos2, widths: [f32; N]) -> [Rect; N] {
     row_before(&mut right, HEIGHT, widths)
 }
 
-/// Like [`row`], for buttons of this height. Moves `right` to where what stands before them ends.
+/// Returns places like [`row`], for buttons of this height. Moves `right` to the end of the room
+/// before the buttons.
 pub fn row_before<const N: usize>(right: &mut Pos2, height: f32, widths: [f32; N]) -> [Rect; N] {
     let whole = widths.iter().map(|width| width + GAP).sum::<f32>();
     right.x -= whole;

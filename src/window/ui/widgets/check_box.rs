@@ -1,15 +1,15 @@
-//! A check box with its words.
+//! A check box with its label.
 
 use egui::{Checkbox, Response, Stroke, Ui, Widget};
 
 use super::{button::RADIUS, paint};
 use crate::ui::theme;
 
-/// Side of the box.
+/// Side of the box, points.
 const SIDE: f32 = 16.0;
-/// Distance of the words from the box.
+/// Distance of the words from the box, points.
 const GAP: f32 = 8.0;
-/// Width of a check box without its words.
+/// Width of a check box without its words, points.
 pub const WIDTH: f32 = SIDE + GAP;
 
 pub struct CheckBox<'a> {

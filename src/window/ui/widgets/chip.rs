@@ -8,7 +8,7 @@ use crate::ui::{text, theme};
 const PADDING: f32 = 11.0;
 const RADIUS: u8 = 12;
 
-/// Width of a chip with this word.
+/// Returns the width of a chip with this word, points.
 pub fn width(ui: &Ui, word: &str) -> f32 {
     (paint::text_width(ui, word, text::small_strong()) + 2.0 * PADDING).ceil()
 }

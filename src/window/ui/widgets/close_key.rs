@@ -1,4 +1,4 @@
-//! The button that closes a popup: Esc is also STOP, so it must not be the only way.
+//! The button that closes a popup. Esc is also STOP, so it must not be the only way.
 
 use egui::{Align, Layout, Ui, vec2};
 

@@ -1,11 +1,11 @@
-//! The menu of what is shown: by the secondary mouse button, and with the focus by the menu key
+//! The context menu, opened by the secondary mouse button, or on a focused control by the menu key
 //! or Shift F10.
 
 use egui::{Button, Id, Key, Modifiers, Popup, Response, SetOpenCommand, Ui};
 
 use super::{close_key, menu};
 
-/// The menu was opened by a key, and its first entry has no focus yet.
+/// Returns the id of a flag: a key opened the menu, and the first entry has no focus yet.
 fn wants_focus(response: Id) -> Id {
     response.with("menu wants focus")
 }
@@ -46,13 +46,12 @@ pub fn show(ui: &Ui, response: &Response, contents: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// Shows an entry of the menu of `response`; returns `true` if it was chosen.
+/// Shows an entry of the menu of `response`. Returns `true` if the operator chose it.
 pub fn entry(ui: &mut Ui, response: Id, words: &str) -> bool {
     entry_locked_by(ui, response, words, None)
 }
 
-/// The same for an entry that cannot be chosen where there is a reason, which whoever points at it
-/// reads.
+/// Shows an entry like [`entry`]. A `reason` locks the entry and appears as its tool-tip.
 pub fn entry_locked_by(ui: &mut Ui, response: Id, words: &str, reason: Option<&str>) -> bool {
     let entry = ui.add_enabled(reason.is_none(), Button::new(words));
     let entry = entry.on_disabled_hover_text(reason.unwrap_or_default());

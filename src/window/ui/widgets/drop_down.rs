@@ -4,15 +4,15 @@ use egui::{Popup, Rect, Response, Role, ScrollArea, TextWrapMode, Ui, WidgetInfo
 
 use super::{button::Button, menu};
 
-/// A higher list scrolls.
+/// Max height of a list, points; a longer list scrolls.
 const MAX_HEIGHT: f32 = 400.0;
 
 /// A button that shows the current choice and offers the others.
 #[derive(Debug, Clone, Copy)]
 pub struct DropDown<'a> {
-    /// Shows the current choice.
+    /// Button with the current choice.
     pub button: Button<'a>,
-    /// Distinguishes the drop-down from others.
+    /// Salt that distinguishes the drop-down from others.
     pub salt: &'static str,
     /// Subject and current choice, for screen readers.
     pub name: &'a str,
@@ -23,8 +23,7 @@ impl DropDown<'_> {
         self.button.chevron().width(ui)
     }
 
-    /// Shows the button in `rect`, and `choices` while it is open; a click on one
-    /// closes it.
+    /// Shows the button in `rect`, and `choices` while it is open; a click on a choice closes it.
     pub fn show(self, ui: &Ui, rect: Rect, choices: impl FnOnce(&mut Ui)) -> Response {
         let response = self.button.chevron().show(ui, self.salt, rect);
         let is_free = !self.button.is_locked();
@@ -35,7 +34,7 @@ impl DropDown<'_> {
             |ui| {
                 ui.set_min_width(ui.available_width());
                 ScrollArea::vertical().max_height(MAX_HEIGHT).show(ui, |ui| {
-                    // A choice may be longer than the button is wide.
+                    // A choice may be wider than the button.
                     ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
                     choices(ui);
                 });

@@ -10,11 +10,11 @@ use crate::ui::{
 
 pub const HEIGHT: f32 = 28.0;
 
-/// The heading line.
+/// Content of the heading line.
 #[derive(Debug, Clone, Copy)]
 pub struct FoldModel<'a> {
     pub title: &'a str,
-    /// The most important content of the section, shown while it is closed.
+    /// Most important content of the section, shown while the section is closed.
     pub value: &'a str,
     /// Icon after the value.
     pub mark: Option<(Icon, Color32)>,
@@ -25,7 +25,7 @@ pub struct FoldModel<'a> {
 pub struct Fold {
     chosen: Option<bool>,
     has_room: bool,
-    /// Height of its content when it was drawn last; 0 if that is not known.
+    /// Height of the content when it was last drawn, points; 0 if unknown.
     height: f32,
 }
 
@@ -39,18 +39,18 @@ impl Fold {
         self.chosen = Some(is_open);
     }
 
-    /// Takes the height of the content that was drawn.
+    /// Takes the height of the drawn content, points.
     pub fn drawn(&mut self, height: f32) {
         self.height = height;
     }
 
-    /// The content becomes another one.
+    /// Clears the height, because the content changes.
     pub fn forget_height(&mut self) {
         (self.has_room, self.height) = (false, 0.0);
     }
 
-    /// Opens where `free` points are left after all that is drawn, or closes where some are missing.
-    /// Returns `true` if it changed.
+    /// Opens the section if `free` points remain for it, or closes it if the view is too high.
+    /// Returns `true` if the section changed.
     pub fn settle(&mut self, free: &mut f32) -> bool {
         let fits = if self.has_room { *free >= 0.0 } else { *free > self.height };
         if self.chosen.is_some() || fits == self.has_room {
@@ -62,8 +62,8 @@ impl Fold {
     }
 }
 
-/// Shows the line in `rect` and flips `open` on a click. Returns `true` if the click
-/// opened the section; the caller then scrolls its content into sight.
+/// Shows the line in `rect` and flips `open` on a click. Returns `true` if the click opened the
+/// section; the caller then scrolls to its content.
 pub fn show(ui: &Ui, rect: Rect, model: &FoldModel<'_>, open: &mut bool) -> bool {
     let t = theme::tokens(ui);
     let name = format!("{}: {}", model.title, model.value);
@@ -106,7 +106,7 @@ mod tests {
     #[test]
     fn a_section_opens_where_it_has_room_and_does_not_flutter() {
         let mut fold = Fold::default();
-        // Its height shows only once it is drawn: 60 of 50 free points.
+        // The fold learns its height of 60 points only by drawing; 50 points are free.
         assert!(fold.settle(&mut 50.0) && fold.is_open());
         fold.drawn(60.0);
         assert!(fold.settle(&mut -10.0) && !fold.is_open());

@@ -1,5 +1,5 @@
-//! Parts of every form: the row with its label, the typed text, the state beside a field and the note
-//! below it.
+//! Parts of every form: the row with its label, the entered text, the state next to a field and the
+//! note below it.
 
 use egui::{
     Align, Align2, Color32, Id, Label, Layout, Rect, Response, RichText, TextEdit, Ui, vec2,
@@ -12,21 +12,21 @@ use crate::ui::{
     tokens::Tokens,
 };
 
-/// Width of the labels of a page.
+/// Width of the labels of a page, points.
 pub const LABEL: f32 = 176.0;
 pub const ROW: f32 = 24.0;
-/// Gap between label, field and state.
+/// Gap between label, field and state, points.
 pub const GAP: f32 = 8.0;
-/// Width that the mark of a state needs.
+/// Width of the mark of a state, points.
 const MARK: f32 = 18.0;
-/// Width below which the state of a field is its mark alone.
+/// Width below which the state of a field is only its mark, points.
 const MIN_STATE: f32 = 64.0;
 
-/// Text as typed over the saved text.
+/// An entered text and its saved text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Entry {
     pub text: String,
-    /// `None` for a field of something new.
+    /// The saved text; `None` for a new field.
     saved: Option<String>,
 }
 
@@ -35,7 +35,7 @@ impl Entry {
         Self { saved: Some(text.clone()), text }
     }
 
-    /// The field of something that is not saved.
+    /// Creates the entry of a new field.
     pub fn added(text: String) -> Self {
         Self { text, saved: None }
     }
@@ -48,37 +48,38 @@ impl Entry {
         self.was().is_some()
     }
 
-    /// The saved text, if the typed one differs.
+    /// Returns the saved text if the entered text differs.
     pub fn was(&self) -> Option<&str> {
         self.saved.as_deref().filter(|saved| *saved != self.text)
     }
 
-    /// The saved text; empty for a new field.
+    /// Returns the saved text; empty for a new field.
     pub fn before(&self) -> &str {
         self.saved.as_deref().unwrap_or_default()
     }
 }
 
-/// State of a field: it decides the border, and the mark and the colour of the words beside it.
+/// State of a field. It sets the border of the field, and the mark and the colour of the words next
+/// to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mark {
     Plain,
     Edited,
-    /// Waits for the operator.
+    /// A value that waits for the operator.
     Pending,
-    /// Waits until the operator unlocks the service functions.
+    /// A value that waits until the operator unlocks the service functions.
     NeedsUnlock,
     Sending,
     Good,
     Invalid,
-    /// Invalid for the unit, or rejected by it.
+    /// A value that the unit does not accept or has rejected.
     Refused,
     Unknown,
     Locked,
 }
 
 impl Mark {
-    /// Icon and colour of the words.
+    /// Returns icon and colour of the words.
     pub fn look(self, t: &Tokens) -> (Option<Icon>, Color32) {
         match self {
             Self::Plain => (None, t.t3),
@@ -94,14 +95,14 @@ impl Mark {
         }
     }
 
-    /// Colour of the border, where the field has one.
+    /// Returns the colour of the border, if the field has one.
     pub fn border(self, t: &Tokens) -> Option<Color32> {
         let is_plain = matches!(self, Self::Plain | Self::Sending | Self::Unknown | Self::Locked);
         (!is_plain).then(|| self.look(t).1)
     }
 }
 
-/// State of a field with this problem, or else with an edit of the text that it `was`, in words.
+/// Returns the state of a field in words: this problem, or else an edit of the text `was`.
 pub fn standing(problem: Option<String>, was: Option<&str>) -> (Mark, String) {
     match (problem, was) {
         (Some(reason), _) => (Mark::Invalid, reason),
@@ -113,7 +114,7 @@ pub fn standing(problem: Option<String>, was: Option<&str>) -> (Mark, String) {
     }
 }
 
-/// Paints the state of a field in `room`. With a mark it is accessible by `name`.
+/// Paints the state of a field in `room`. If it has a mark, `name` is its accessible name.
 pub fn state(ui: &Ui, salt: impl egui::AsIdSalt, room: Rect, mark: Mark, [words, name]: [&str; 2]) {
     let (icon, colour) = mark.look(theme::tokens(ui));
     let mut place = room;
@@ -133,8 +134,8 @@ pub fn state(ui: &Ui, salt: impl egui::AsIdSalt, room: Rect, mark: Mark, [words,
     }
 }
 
-/// A row with `content` beside a label of this width; returns what `content` returns and the place
-/// of the whole row.
+/// Shows a row with `content` next to a label of this width. Returns the result of `content` and
+/// the place of the whole row.
 pub fn labelled<R>(
     ui: &mut Ui,
     label: &str,
@@ -154,8 +155,8 @@ pub fn labelled<R>(
     (response.inner, response.response.rect)
 }
 
-/// A row with a text of one line, which shows `hint` while it is empty. `widths` are those of the
-/// label and, as far as there is room, of the field.
+/// Shows a row with a text of one line, which shows `hint` while it is empty. `widths` are the
+/// widths of the label and, as far as there is room, of the field.
 pub fn text_field(
     ui: &mut Ui,
     (label, hint): (&str, &str),
@@ -174,7 +175,7 @@ pub fn text_field(
     labelled(ui, label, label_width, field).0
 }
 
-/// A note in the column of the fields.
+/// Shows a note in the column of the fields.
 pub fn note(ui: &mut Ui, words: &str, colour: Color32) {
     ui.horizontal_top(|ui| {
         ui.add_space(LABEL + GAP);

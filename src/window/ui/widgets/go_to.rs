@@ -14,42 +14,42 @@ use crate::ui::{text, theme};
 
 pub use parse::Field;
 
-/// Height of the two fields and the button.
+/// Height of the two fields and the button, points.
 pub const HEIGHT: f32 = 104.0;
-/// [`HEIGHT`] in a small window.
+/// [`HEIGHT`] in a small window, points.
 pub const SMALL_HEIGHT: f32 = 94.0;
 const LABEL: f32 = 40.0;
 
 /// Limits and hints of the fields.
 #[derive(Debug, Clone, Copy)]
 pub struct GoToModel {
-    /// Sending a direction is refused now; the caller shows the reason below.
+    /// `true` if Azel refuses to send a direction now; the caller shows the reason below.
     pub locked: bool,
-    /// Accepted azimuths.
+    /// Accepted azimuths, degrees.
     pub azimuth_range_deg: (f64, f64),
-    /// Accepted elevations; none for a rotator with one axis.
+    /// Accepted elevations, degrees; `None` for a rotator with one axis.
     pub elevation_range_deg: Option<(f64, f64)>,
-    /// The commanded direction, shown in empty fields.
+    /// Commanded direction, degrees, shown in empty fields.
     pub commanded_deg: (Option<f64>, Option<f64>),
-    /// Decimals of the commanded direction.
+    /// Number of decimals of the commanded direction.
     pub decimals: usize,
 }
 
-/// A typed direction.
+/// An entered direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Target {
-    /// From north over east.
+    /// Azimuth clockwise from north, degrees.
     pub azimuth_deg: f64,
-    /// Above the horizon; none for a rotator with one axis.
+    /// Elevation above the horizon, degrees; `None` for a rotator with one axis.
     pub elevation_deg: Option<f64>,
 }
 
 /// The operator's request.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum GoToAction {
-    /// Show the direction in the sky plot without moving the antenna.
+    /// Preview of the direction in the sky plot, without motion.
     Preview(Target),
-    /// Move the antenna to the direction.
+    /// Motion of the antenna to the direction.
     Send(Target),
 }
 
@@ -60,9 +60,9 @@ pub struct GoToState {
     pub elevation: String,
     refusal: Option<(Field, String)>,
     previewed: Option<Target>,
-    /// Direction in the fields, if they hold a valid one.
+    /// Valid direction in the fields, if any.
     typed: Option<Target>,
-    /// The direction that was sent or left; the fields keep it.
+    /// Direction that the operator has sent or abandoned; the fields keep it.
     left: Option<Target>,
     wants_focus: bool,
 }
@@ -73,22 +73,22 @@ impl GoToState {
         self.wants_focus = true;
     }
 
-    /// The reason why the last input was refused.
+    /// Returns the reason why Azel refused the last input.
     pub fn refusal(&self) -> Option<&str> {
         self.refusal.as_ref().map(|(_, sentence)| sentence.as_str())
     }
 
-    /// The previewed direction, until the fields change.
+    /// Returns the previewed direction until the fields change.
     pub fn previewed(&self) -> Option<Target> {
         self.previewed
     }
 
-    /// The direction in the fields, from the last key on until it is sent or left.
+    /// Returns the direction in the fields until the operator sends or abandons it.
     pub fn typed(&self) -> Option<Target> {
         self.typed.filter(|typed| self.left.as_ref() != Some(typed))
     }
 
-    /// No longer looks at what is typed; the fields keep it.
+    /// Ends the preview of the entered direction; the fields keep it.
     pub fn leave_typed(&mut self) {
         self.left = self.typed;
         self.previewed = None;
@@ -134,8 +134,8 @@ impl GoToState {
     }
 }
 
-/// Shows the fields and the button in `rect`. The typed text stays also after a refusal;
-/// the caller shows [`GoToState::refusal`] below.
+/// Shows the fields and the button in `rect`. The entered text stays after a refusal; the caller
+/// shows [`GoToState::refusal`] below.
 pub fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -174,13 +174,13 @@ pub fn show(
     }
     if matches!(action, Some(GoToAction::Send(_))) {
         state.leave_typed();
-        // The next key press is a shortcut of the window again.
+        // The next key press is again a shortcut of the window.
         ui.memory_mut(egui::Memory::stop_text_input);
     }
     action
 }
 
-/// Returns whether Enter was pressed in the field.
+/// Shows one field. Returns `true` if the operator pressed Enter in it.
 fn field_row(
     ui: &mut Ui,
     row: Rect,

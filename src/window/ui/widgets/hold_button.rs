@@ -1,4 +1,4 @@
-//! A button that must be held for a second: Park, Unlock, SSPA on.
+//! A button that the operator must hold for a second: Park, Unlock, SSPA on.
 
 use std::time::Duration;
 
@@ -7,7 +7,7 @@ use egui::{Align2, Key, Rect, Response, Stroke, StrokeKind, Ui, ViewportId, pos2
 use super::{button::RADIUS, paint};
 use crate::ui::{text, theme};
 
-/// Time that the button must be held.
+/// Time for which the operator must hold the button, seconds.
 pub const HOLD_S: f64 = 1.0;
 const FRAME: Duration = Duration::from_millis(33);
 
@@ -16,14 +16,14 @@ const FRAME: Duration = Duration::from_millis(33);
 pub enum HoldState {
     #[default]
     Released,
-    /// Held since this time, in seconds of the window's clock.
+    /// Held since this time, seconds of the window's clock.
     Since(f64),
     /// Held to the end, but not released yet.
     Done,
 }
 
 impl HoldState {
-    /// Advances by one frame. Returns `true` once, when the button was held to the end.
+    /// Advances by one frame. Returns `true` once, at the end of the hold.
     fn step(&mut self, is_held: bool, now_s: f64) -> bool {
         *self = match (*self, is_held) {
             (_, false) => Self::Released,
@@ -37,7 +37,7 @@ impl HoldState {
         false
     }
 
-    /// Elapsed part of the hold, 0 to 1.
+    /// Returns the elapsed part of the hold, 0 to 1.
     fn part(self, now_s: f64) -> f32 {
         match self {
             Self::Released => 0.0,
@@ -47,8 +47,8 @@ impl HoldState {
     }
 }
 
-/// Shows the button in `rect`. Returns `true` once, when it was held for the whole second;
-/// an earlier release does nothing. `text` must mention the hold, such as "Hold 1 s to park".
+/// Shows the button in `rect`. Returns `true` once, at the end of the hold; an earlier release does
+/// nothing. `text` must mention the hold, such as "Hold 1 s to park".
 pub fn show(ui: &Ui, rect: Rect, text: &str, state: &mut HoldState) -> bool {
     let t = theme::tokens(ui);
     let (response, done) = draw_held(ui, rect, text, true, state);
@@ -66,8 +66,8 @@ pub fn show(ui: &Ui, rect: Rect, text: &str, state: &mut HoldState) -> bool {
     done
 }
 
-/// A control in `rect` that must be held for a second, by pointer or key; the caller draws it.
-/// Returns `true` once, when it was held to the end. `name` must mention the hold.
+/// Handles a control in `rect` that must be held for a second, by pointer or key; the caller draws
+/// it. Returns `true` once, at the end of the hold. `name` must mention the hold.
 pub fn draw_held(
     ui: &Ui,
     rect: Rect,
@@ -89,7 +89,7 @@ pub fn draw_held(
     (response, done)
 }
 
-/// Elapsed part of the hold, 0 to 1.
+/// Returns the elapsed part of the hold, 0 to 1.
 pub fn part(ui: &Ui, state: &HoldState) -> f32 {
     state.part(ui.input(|input| input.time))
 }

@@ -16,7 +16,7 @@ use crate::{
 };
 
 const RADIUS: u8 = 4;
-/// Padding between border and text.
+/// Padding between border and text, points.
 const INSET: f32 = 6.0;
 
 /// An input field.
@@ -30,7 +30,7 @@ pub struct Input<'a> {
 }
 
 impl Input<'_> {
-    /// Border of the field; the focus has a ring of its own around it.
+    /// Returns the border of the field; the focus ring surrounds the border.
     fn stroke(&self, ui: &Ui) -> Stroke {
         let plain = Stroke::new(1.0, theme::tokens(ui).edge);
         self.border.map_or(plain, |colour| Stroke::new(2.0, colour))
@@ -41,7 +41,7 @@ impl Input<'_> {
         text::sized(12.0, weight)
     }
 
-    /// Shows a text field; returns `true` when the text was changed.
+    /// Shows a text field. Returns `true` if the operator changed the text.
     pub fn text(&self, ui: &mut Ui, typed: &mut String, is_password: bool) -> bool {
         let t = theme::tokens(ui);
         let id = ui.make_persistent_id(("input", self.name));
@@ -69,7 +69,7 @@ impl Input<'_> {
         response.changed()
     }
 
-    /// Shows the field for a value of this kind; returns `true` when the text was changed.
+    /// Shows the field for a value of this kind. Returns `true` if the operator changed the value.
     pub fn value(&self, ui: &mut Ui, kind: &Kind, typed: &mut String) -> bool {
         let Some(choices) = kind.choices() else {
             return self.text(ui, typed, matches!(kind, Kind::Password(_)));
@@ -80,7 +80,7 @@ impl Input<'_> {
         is_changed
     }
 
-    /// Shows a choice from a few; returns a newly chosen one.
+    /// Shows a choice from a few values. Returns a newly chosen value.
     pub fn choice(&self, ui: &Ui, chosen: &str, offered: &[&str]) -> Option<String> {
         let t = theme::tokens(ui);
         let salt = ("input", self.name);
@@ -110,7 +110,7 @@ impl Input<'_> {
         other
     }
 
-    /// Shows a value that cannot be changed here.
+    /// Shows a read-only value.
     pub fn inert(&self, ui: &Ui, words: &str) {
         let t = theme::tokens(ui);
         paint::dashed_border(ui, self.rect, f32::from(RADIUS), (1.0, t.edge));
@@ -121,7 +121,7 @@ impl Input<'_> {
     }
 }
 
-/// Selects all of a field that got the focus by a key, so that typing replaces its value.
+/// Selects the whole text of a field that got the focus by a key, so that typing replaces it.
 pub fn select_when_tabbed(ui: &Ui, response: &Response, typed: &str) {
     let by_pointer = ui.input(|input| input.pointer.any_down() || input.pointer.any_released());
     if !response.gained_focus() || by_pointer {
@@ -142,8 +142,7 @@ fn select_all(ui: &Ui, response: &Response, typed: &str) {
     state.store(ui.ctx(), response.id);
 }
 
-/// Clears the undo history: otherwise Ctrl Z would bring back a password that was sent
-/// or dropped.
+/// Clears the undo history. Otherwise Ctrl Z would bring back a sent or discarded password.
 fn forget_typing(ui: &Ui, id: egui::Id) {
     if let Some(mut state) = TextEditState::load(ui.ctx(), id) {
         state.clear_undoer();

@@ -1,5 +1,5 @@
-//! The panel at the right of a view that shows the selected thing: its ground, the head with name
-//! and countdown, the body that scrolls, and the foot with buttons.
+//! The panel at the right of a view that shows the selected item. It has a background, a head with
+//! name and countdown, a scrolling body, and a foot with buttons.
 
 use egui::{Align2, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, vec2};
 
@@ -9,12 +9,12 @@ use crate::ui::{
     theme,
 };
 
-/// Distance of the contents from the edges of a panel.
+/// Distance of the contents from the edges of a panel, points.
 pub const PADDING: f32 = 16.0;
 const HEAD: f32 = 56.0;
 const GAP: f32 = 8.0;
 
-/// The parts of a panel.
+/// Places of the parts of a panel.
 #[derive(Debug, Clone, Copy)]
 pub struct Parts {
     pub head: Rect,
@@ -23,7 +23,7 @@ pub struct Parts {
 }
 
 impl Parts {
-    /// The parts of a panel in `rect` whose foot is `foot` high.
+    /// Returns the parts of a panel in `rect`; the foot is `foot` points high.
     pub fn new(rect: Rect, foot: f32) -> Self {
         let (head, rest) = rect.split_top_bottom_at_y(rect.top() + HEAD);
         let (body, foot) = rest.split_top_bottom_at_y(rest.bottom() - foot);
@@ -31,14 +31,14 @@ impl Parts {
     }
 }
 
-/// Paints the ground of a panel and the line at its left.
+/// Paints the background of a panel and the line at its left.
 pub fn show_ground(ui: &Ui, rect: Rect) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().vline(rect.left() + 0.5, rect.y_range(), (1.0, t.line));
 }
 
-/// Says that nothing is selected, and how to select something.
+/// Shows that nothing is selected, and how to select an item.
 pub fn show_nothing(ui: &mut Ui, rect: Rect, title: &str, words: &str) {
     let builder = UiBuilder::new().id_salt("nothing selected").max_rect(rect.shrink(PADDING));
     ui.scope_builder(builder, |ui| {
@@ -52,12 +52,12 @@ pub fn show_nothing(ui: &mut Ui, rect: Rect, title: &str, words: &str) {
 #[derive(Debug, Clone, Copy)]
 pub struct Head<'a> {
     pub name: &'a str,
-    /// Below the name.
+    /// Detail below the name.
     pub detail: &'a str,
-    /// The next event, above the time until then.
+    /// Next event, above the time until that event.
     pub event: &'a str,
     pub countdown: &'a str,
-    /// Room for a control at the left of the name.
+    /// Room for a control at the left of the name, points.
     pub indent: f32,
 }
 
@@ -99,7 +99,7 @@ pub fn show_body(ui: &mut Ui, rect: Rect, salt: &str, contents: impl FnOnce(&mut
     });
 }
 
-/// A place of this height across the body.
+/// Returns a place of this height across the body.
 pub fn place(ui: &mut Ui, width: f32, height: f32) -> Rect {
     ui.allocate_exact_size(vec2(width, height), Sense::hover()).0
 }

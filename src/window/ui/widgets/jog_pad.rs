@@ -21,29 +21,29 @@ pub use hold::JogState;
 use hold::{Focus, Frame};
 pub use keys::{JogDirection, JogKeys, KeyLabel};
 
-/// Longest time between two reports of a held key.
+/// Max time between two reports of a held key.
 const WHILE_HELD: Duration = Duration::from_millis(100);
 
 /// Content of the pad.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct JogModel<'a> {
     pub keys: JogKeys,
-    /// Jogging is refused now; the caller shows the reason below the pad.
+    /// `true` if Azel refuses jogging now; the caller shows the reason below the pad.
     pub locked: bool,
     /// Directions in which a limit stops the antenna.
     pub blocked: &'a [JogDirection],
-    /// The chosen speed as a word or a number; empty where there is no choice.
+    /// The chosen speed as a word or a number; empty if there is no choice.
     pub requested: &'a str,
-    /// The measured rate of the moving axis.
+    /// Measured rate of the moving axis, degrees per second.
     pub real_deg_s: Option<f64>,
 }
 
-/// Shows the pad in `rect`, a square. Returns the held direction in every frame of the
-/// hold; the first frame with `None` is the release.
-/// The pointer holds a key; so do the arrow keys, Space or Enter while a key of the pad
-/// has the focus, and the arrow keys alone while the pad as a whole has it
-/// ([`JogState::focus`]). Losing the window, the pointer or the focus releases the key,
-/// and only a new press holds it again.
+/// Shows the pad in `rect`, a square. Returns the held direction in every frame of the hold; the
+/// first frame with `None` is the release.
+/// The pointer can hold a key. Arrow keys, Space or Enter hold a key while a key of the pad has the
+/// focus. Only the arrow keys do so while the pad as a whole has the focus ([`JogState::focus`]).
+/// Losing the window, the pointer or the focus releases the key, and only a new press holds it
+/// again.
 pub fn show(
     ui: &Ui,
     rect: Rect,
@@ -84,7 +84,7 @@ pub fn show(
     }
     let held_direction = state.step(&frame);
     if held_direction.is_some() {
-        // Without a frame nothing would report that the key is still held.
+        // Without a frame, nothing would report that the key is still held.
         ui.ctx().request_repaint_after_for(WHILE_HELD, ViewportId::ROOT);
     }
     for (direction, label, free, response) in &keys {
@@ -95,8 +95,8 @@ pub fn show(
     held_direction
 }
 
-/// The pad as a whole, which can have the focus in place of a single key. The pointer
-/// passes through to the keys.
+/// Adds the pad as a whole, which can have the focus in place of a single key. The pointer passes
+/// through to the keys.
 fn whole(ui: &Ui, rect: Rect, free: bool) -> Response {
     let sense = if free { Sense::focusable_noninteractive() } else { Sense::hover() };
     let response = ui.interact(rect, ui.make_persistent_id("jog pad"), sense);
@@ -115,10 +115,10 @@ fn look_at(ui: &Ui, frame: &mut Frame, direction: JogDirection, response: &Respo
     }
 }
 
-/// Returns `true` if the control has the focus, and keeps the arrow keys from moving it.
+/// Returns `true` if the control has the focus. The arrow keys then do not move the focus.
 fn keeps_arrows(ui: &Ui, response: &Response) -> bool {
     if ui.input(|input| !input.focused) {
-        // Returning to the window must not press the keys again.
+        // A return to the window must not press the keys again.
         response.surrender_focus();
     }
     if !response.has_focus() {

@@ -13,31 +13,30 @@ use crate::ui::{
 };
 
 const RADIUS: u8 = 6;
-/// Size of the tag of automatic operation.
+/// Size of the tag of automatic operation, points.
 pub const TAG: Vec2 = vec2(38.0, 16.0);
 pub const TWO_LINES_WIDTH: f32 = 162.0;
-/// The word of an antenna for which a red alarm stands.
+/// Word for an antenna with an active red alarm.
 pub const ALARM: &str = "Alarm";
 
-/// State of the link to a unit. Shapes tell them apart; without a reply it is the same one, whatever the
-/// link does.
+/// State of the link to a unit. Each state has its shape; all states without a reply share one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LinkGlyph {
-    /// The unit replies in time.
+    /// A link whose unit replies in time.
     Live,
-    /// The last reply is older than two poll periods.
+    /// A link whose last reply is older than two poll periods.
     Late,
-    /// No reply over an open link.
+    /// An open link without a reply.
     Silent,
-    /// The link is gone.
+    /// A lost link.
     Lost,
-    /// Switched off.
+    /// A link that is switched off.
     #[default]
     Off,
 }
 
 impl LinkGlyph {
-    /// Shape and colour.
+    /// Returns shape and colour.
     pub fn look(self, t: &Tokens) -> (Icon, Color32) {
         match self {
             Self::Live => (Icon::Disc, t.ok),
@@ -47,7 +46,7 @@ impl LinkGlyph {
         }
     }
 
-    /// The word for screen readers.
+    /// Returns the word for screen readers.
     pub fn word(self) -> &'static str {
         match self {
             Self::Live => "live",
@@ -62,11 +61,11 @@ impl LinkGlyph {
 /// Level of detail of a chip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ChipForm {
-    /// Name over activity and age.
+    /// Name above activity and age.
     TwoLines,
     /// Name and age.
     OneLine,
-    /// Name only.
+    /// Only the name.
     Name,
 }
 
@@ -74,29 +73,29 @@ pub enum ChipForm {
 pub struct ChipModel<'a> {
     pub name: &'a str,
     pub link: LinkGlyph,
-    /// One or two words.
+    /// Activity in one or two words.
     pub activity: &'a str,
     /// Age of the last good reply with its unit, or empty.
     pub age: &'a str,
-    /// The card of the antenna is shown.
+    /// `true` if the window shows the card of the antenna.
     pub selected: bool,
-    /// The antenna is locked out for maintenance.
+    /// `true` if the antenna is locked out for maintenance.
     pub maintenance: bool,
-    /// `None` while automatic operation is off.
+    /// State of automatic operation; `None` while it is off.
     pub automatic: Option<AutomaticModel<'a>>,
-    /// The gravest red alarm that stands for the antenna, in words.
+    /// Most severe active red alarm of the antenna, in words.
     pub alarm: Option<&'a str>,
 }
 
-/// Automatic operation while it is not off.
+/// State of automatic operation while it is not off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AutomaticModel<'a> {
     pub is_suspended: bool,
-    /// The next step with its time, or the reason of a suspension.
+    /// Next step with its time, or the reason of a suspension.
     pub words: &'a str,
 }
 
-/// An activity with the age of the last good reply, or how long there has been none.
+/// Returns an activity with the age of the last good reply, or the time without a reply.
 pub fn with_age(activity: &str, age: &str, link: LinkGlyph) -> String {
     match link {
         _ if age.is_empty() => activity.to_owned(),
@@ -112,7 +111,7 @@ fn ago(age: &str) -> String {
 impl ChipModel<'_> {
     fn second_line(&self) -> String {
         let words = match (self.maintenance, self.alarm, self.link) {
-            // The age of a live reply leaves its room to the alarm.
+            // The alarm takes the room of the age of a live reply.
             (true, _, _) | (false, Some(_), LinkGlyph::Live) => self.activity.to_owned(),
             (false, Some(_), LinkGlyph::Late) => format!("{} {}", self.activity, self.age),
             (false, _, _) => with_age(self.activity, self.age, self.link),
@@ -137,18 +136,18 @@ impl ChipModel<'_> {
         }
     }
 
-    /// Width of the word of an alarm in one line, with the gap before it.
+    /// Returns the width of the word of an alarm in one line, with the gap before it, points.
     fn alarm_width(&self, ui: &Ui) -> f32 {
         let width = || 6.0 + paint::text_width(ui, ALARM, alarm_font());
         self.alarm.map_or(0.0, |_| width())
     }
 
-    /// Width of the tag beside the name, with the gap before it.
+    /// Returns the width of the tag next to the name, with the gap before it, points.
     fn tag_width(&self) -> f32 {
         if self.automatic.is_some() { 6.0 + TAG.x } else { 0.0 }
     }
 
-    /// The age in one line; the tag has its place while the unit answers.
+    /// Returns the age for a chip of one line; while the unit answers, the tag takes its place.
     fn short_age(&self) -> String {
         match (self.automatic, self.link) {
             (Some(_), LinkGlyph::Live) => String::new(),
@@ -211,7 +210,7 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
         let below = room.translate(vec2(0.0, 8.5));
         let (font, colour) =
             if model.alarm.is_some() { (alarm_font(), t.bad) } else { (text::small(), t.t2) };
-        // Beside an alarm the age gives way first, then the activity.
+        // Next to an alarm, the text shortens the age first, then the activity.
         let in_short = format!("{ALARM}: {}", model.activity);
         let shorter = [&*in_short, ALARM].into_iter().filter(|_| model.alarm.is_some());
         let painted = std::iter::once(&*second)
@@ -246,7 +245,7 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
     if texts.is_empty() { response } else { response.on_hover_text(texts.join("\n")) }
 }
 
-/// Paints the tag of automatic operation, dashed while that is suspended.
+/// Paints the tag of automatic operation, dashed while it is suspended.
 pub fn automatic_tag(ui: &Ui, rect: Rect, is_suspended: bool) {
     let t = theme::tokens(ui);
     let colour = if is_suspended { t.warn } else { t.t2 };

@@ -1,5 +1,5 @@
-//! The list box of every view: rows of one height that scroll, one stop of Tab, the keys that move
-//! between rows, and the roles and names for screen readers.
+//! The list box of every view. It scrolls rows of one height, is a single Tab stop, handles keys,
+//! and gives roles and names to screen readers.
 
 use std::hash::Hash;
 
@@ -11,19 +11,19 @@ use egui::{
 use super::paint;
 use crate::ui::{text, theme};
 
-/// Width of the stripe at the left of a selected row.
+/// Width of the stripe at the left of a selected row, points.
 const STRIPE: f32 = 3.0;
-/// Distance of the sentence of an empty list from its edges.
+/// Distance of the sentence of an empty list from its edges, points.
 const MARGIN: f32 = 16.0;
 
 /// Scroll position of a list, kept from frame to frame.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Scroll {
-    /// Points between the first row and the upper edge.
+    /// Distance between the first row and the upper edge, points.
     pub offset: f32,
-    /// The offset in which the next frame begins.
+    /// Offset at which the next frame begins, points.
     next: Option<f32>,
-    /// A row that the next frame brings into view.
+    /// Row that the next frame scrolls to.
     requested: Option<usize>,
 }
 
@@ -33,12 +33,12 @@ impl Scroll {
         self.next = Some(offset.max(0.0));
     }
 
-    /// Brings a row into view in the next frame.
+    /// Scrolls to a row in the next frame.
     pub fn bring_into_view(&mut self, row: usize) {
         self.requested = Some(row);
     }
 
-    /// The offset at which a list with rows of `height` is forced to begin.
+    /// Returns the requested offset of a list with rows of `height`, points, if there is a request.
     fn take(&mut self, height: f32, view: f32) -> Option<f32> {
         let offset = self.next.take();
         let Some(row) = self.requested.take() else { return offset };
@@ -50,14 +50,14 @@ impl Scroll {
 /// Movement by a key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Step {
-    /// Rows downwards; the extremes lead to the first and the last row.
+    /// Number of rows downwards; the extremes mean the first and the last row.
     pub rows: isize,
-    /// Shift extends the selection.
+    /// `true` if Shift extends the selection.
     pub extends: bool,
 }
 
 impl Step {
-    /// The row to which the step leads from row `start` of `rows`.
+    /// Returns the row after a step from row `start` of `rows`.
     pub fn target(self, start: usize, rows: usize) -> Option<usize> {
         Some(start.saturating_add_signed(self.rows).min(rows.checked_sub(1)?))
     }
@@ -65,7 +65,7 @@ impl Step {
 
 /// A list box in its place.
 pub struct List {
-    /// The list as one control, which has the focus of all rows.
+    /// Response of the list as one control, which has the focus of all rows.
     pub response: Response,
     row: f32,
 }
@@ -102,7 +102,7 @@ impl List {
         self.arrow_step(ui).or_else(|| self.step_by(ui, others))
     }
 
-    /// Takes the arrow that moves between rows, for a view in which the other keys have a meaning.
+    /// Takes an arrow key that moves between rows, for a view that uses the other keys.
     pub fn arrow_step(&self, ui: &Ui) -> Option<Step> {
         self.step_by(ui, [(Key::ArrowUp, -1), (Key::ArrowDown, 1)])
     }
@@ -123,7 +123,7 @@ impl List {
         step
     }
 
-    /// Says why the list has no rows.
+    /// Shows the reason why the list has no rows.
     pub fn show_empty(&self, ui: &Ui, salt: &str, words: &str) {
         let rect = self.response.rect;
         let corner = rect.left_top() + vec2(MARGIN, 12.0);
@@ -133,7 +133,7 @@ impl List {
         self.show_focus(ui);
     }
 
-    /// Draws those of `count` rows that are in view.
+    /// Draws the visible rows of `count` rows.
     pub fn show_rows(
         &self,
         ui: &mut Ui,
@@ -158,14 +158,15 @@ impl List {
         });
     }
 
-    /// Draws rows of different heights with the given area.
+    /// Draws rows of different heights in the given area.
     pub fn show_scrolling(&self, ui: &mut Ui, contents: impl FnOnce(&mut Ui, ScrollArea)) {
         let rect = self.response.rect;
         let builder = UiBuilder::new().id_salt(self.response.id).max_rect(rect);
         ui.scope_builder(builder, |ui| {
             ui.set_clip_rect(rect.intersect(ui.clip_rect()));
             ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
-            // The end may move by rows within a frame, from which the area would spring back.
+            // The end may move by several rows within a frame, and the scroll area would spring
+            // back.
             ui.spacing_mut().scroll.kinetic.rubber_band = false;
             let id = self.response.id.with("rows");
             contents(ui, ScrollArea::vertical().id_salt(id).auto_shrink(false));
@@ -181,8 +182,8 @@ impl List {
         }
     }
 
-    /// The row `key` as an option of the list, with its ground: `tint` where it is not selected. A
-    /// click gives the list the focus.
+    /// Draws the row `key` as an option of the list with its background, which is `tint` if not
+    /// selected. A click gives the list the focus.
     pub fn option(
         &self,
         ui: &Ui,
@@ -223,7 +224,7 @@ fn fill_ground(ui: &Ui, rect: Rect, is_selected: bool, is_hovered: bool, tint: C
     ui.painter().rect_filled(rect, 0.0, ground);
 }
 
-/// Paints the ground of a row that is no option of a list, with its stripe.
+/// Paints the background of a row that is not an option of a list, with its stripe.
 pub fn paint_ground(ui: &Ui, rect: Rect, is_selected: bool, is_hovered: bool) {
     fill_ground(ui, rect, is_selected, is_hovered, Color32::TRANSPARENT);
     if is_selected {

@@ -2,8 +2,8 @@
 
 use egui::{FocusDirection, Id, Key, Popup, Response, Ui};
 
-/// Shows `popup` with the menu of `opener`. An entry that is chosen closes it, by keys as by the
-/// pointer, and by keys the focus goes back to `opener`. So does Left: Esc would also be STOP.
+/// Shows `popup` with the menu of `opener`. A choice by pointer or key closes the menu; after a
+/// key, `opener` gets the focus back. Left also closes the menu, because Esc would also be STOP.
 pub fn show(opener: &Response, popup: Popup<'_>, contents: impl FnOnce(&mut Ui)) {
     let shown = popup.show(|ui| {
         contents(ui);
@@ -24,18 +24,18 @@ pub fn show(opener: &Response, popup: Popup<'_>, contents: impl FnOnce(&mut Ui))
     }
 }
 
-/// The pass in which a menu was shown last.
+/// Returns the id of the egui pass in which a menu was last shown.
 fn shown_in() -> Id {
     Id::unique("menu shown in")
 }
 
-/// Returns `true` if a menu is open. Its keys are not those of the view behind it.
+/// Returns `true` if a menu is open. The menu then takes the keys of the view behind it.
 pub fn is_open(ui: &Ui) -> bool {
     let pass = ui.data(|data| data.get_temp::<u64>(shown_in()));
     pass.is_some_and(|pass| pass + 1 >= ui.cumulative_pass_nr())
 }
 
-/// The entries that can be chosen, in their order.
+/// Returns the enabled entries in their order.
 fn entries(ui: &Ui) -> Vec<Id> {
     let layer = ui.layer_id();
     ui.viewport(|viewport| {
@@ -47,7 +47,7 @@ fn entries(ui: &Ui) -> Vec<Id> {
     })
 }
 
-/// The arrows lead from entry to entry, also in a menu that the pointer has opened.
+/// Moves the focus between entries with the arrow keys, also in a menu opened with the pointer.
 fn take_arrows(ui: &Ui, entries: &[Id]) {
     let [up, down] =
         [Key::ArrowUp, Key::ArrowDown].map(|key| ui.input(|input| input.key_pressed(key)));
@@ -70,7 +70,8 @@ fn take_arrows(ui: &Ui, entries: &[Id]) {
     });
 }
 
-/// Returns `true` if an entry was chosen without the pointer, whose clicks close the menu anyway.
+/// Returns `true` if the operator chose an entry by key. A click with the pointer closes the menu
+/// anyway.
 fn chosen_by_key(ui: &Ui, entries: &[Id]) -> bool {
     let is_clicked = |id: &Id| ui.read_response(*id).is_some_and(|entry| entry.clicked());
     !ui.input(|input| input.pointer.any_click()) && entries.iter().any(is_clicked)

@@ -4,11 +4,11 @@ use egui::{Event, Frame, Id, Key, LayerId, Modal, Order, Ui};
 
 use crate::ui::tokens;
 
-/// Padding of the box.
+/// Padding of the box, points.
 const PADDING: i8 = 16;
 
-/// A box with a veil over the rest of the window. The press of Enter that opened it is no answer,
-/// however long the key is held.
+/// Returns a box with a veil above the rest of the window. The Enter press that opened the box does
+/// not answer it, even if the operator holds the key.
 pub fn modal(ui: &Ui, id: &str) -> Modal {
     let id = Id::unique(id);
     let layer = LayerId::new(Order::Foreground, id);

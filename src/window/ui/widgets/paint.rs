@@ -8,13 +8,13 @@ use egui::{
 
 use crate::ui::{text, theme};
 
-/// Longest number of a satellite within its constellation, such as M072.
+/// Max number of characters of a satellite's number in its constellation, such as M072.
 const MAX_NUMBER_CHARS: usize = 6;
-/// Fewer letters before the number tell nothing.
+/// Min number of letters before the number; fewer letters are meaningless.
 const MIN_HEAD_CHARS: usize = 3;
-/// Dash and gap of the border of a locked or blocked control.
+/// Dash and gap of the border of a locked or blocked control, points.
 const DASH: (f32, f32) = (3.0, 2.0);
-/// Distance and width of the focus ring.
+/// Distance and width of the focus ring, points.
 const FOCUS: f32 = 2.0;
 
 /// Paints one line of text with its `anchor` at `position`, never cut.
@@ -58,7 +58,7 @@ fn cut_text_in(
     (place, is_cut)
 }
 
-/// Paints like [`text_in`] and names the text. If it was cut, it is whole under the pointer.
+/// Paints like [`text_in`] and adds an accessible name. The tool-tip shows a cut text completely.
 pub fn named_text_in(
     ui: &Ui,
     salt: impl egui::AsIdSalt,
@@ -76,8 +76,8 @@ pub fn named_text_in(
     place
 }
 
-/// Paints a name at the left of `line` and its value at the right. If one was cut, both are whole under
-/// the pointer. Returns the rectangle of the value.
+/// Paints a name at the left of `line` and its value at the right. The tool-tip shows both
+/// completely if one was cut. Returns the rectangle of the value.
 pub fn fact_in(
     ui: &Ui,
     salt: impl egui::AsIdSalt,
@@ -98,8 +98,8 @@ pub fn fact_in(
     drawn
 }
 
-/// Paints the name of a satellite on one line, anchored in `rect`. Where it has no room it is cut before
-/// its number: cut at their ends, the satellites of a constellation would all read the same.
+/// Paints the name of a satellite on one line, anchored in `rect`. A long name is cut before its
+/// number. Cut at their ends, all names of a constellation would read the same.
 pub fn name_in(
     ui: &Ui,
     rect: Rect,
@@ -148,17 +148,17 @@ pub fn paragraph_in(ui: &Ui, rect: Rect, text: &str, font: FontId, colour: Color
     place
 }
 
-/// Width of one line of text, in points.
+/// Returns the width of one line of text, points.
 pub fn text_width(ui: &Ui, text: &str, font: FontId) -> f32 {
     ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
 }
 
-/// Returns `true` if a line of text has room in the width of `rect`.
+/// Returns `true` if a line of text fits the width of `rect`.
 pub fn fits(ui: &Ui, text: &str, font: FontId, rect: Rect) -> bool {
     text_width(ui, text, font) <= rect.width()
 }
 
-/// A square of `side` around `centre`, for an icon.
+/// Returns a square of `side` around `centre`, for an icon.
 pub fn square(centre: Pos2, side: f32) -> Rect {
     Rect::from_center_size(centre, Vec2::splat(side))
 }
@@ -183,8 +183,7 @@ pub fn dashed_border(ui: &Ui, rect: Rect, radius: f32, stroke: impl Into<Stroke>
     ui.painter().extend(Shape::dashed_line(&path, stroke, DASH.0, DASH.1));
 }
 
-/// Paints the ring around the control that has the keyboard focus. A control that gains the
-/// focus by a key is scrolled into sight.
+/// Paints the ring around the focused control. Scrolls to a control that gains the focus by a key.
 pub fn focus_ring(ui: &Ui, response: &Response, radius: u8) {
     if response.gained_focus() && !ui.input(|input| input.pointer.any_down()) {
         response.scroll_to_me(None);
@@ -194,8 +193,8 @@ pub fn focus_ring(ui: &Ui, response: &Response, radius: u8) {
     }
 }
 
-/// Scrolls to the control in `ui` that gained the focus by a key, for controls that [`focus_ring`] does
-/// not bring into sight. Call at the end of what scrolls.
+/// Scrolls to the control in `ui` that gained the focus by a key, for controls that [`focus_ring`]
+/// does not scroll to. Call this function at the end of the scrolling content.
 pub fn follow_focus(ui: &Ui) {
     let focused = ui.memory(egui::Memory::focused);
     let key = ui.scope_id().with("followed focus");
@@ -215,7 +214,7 @@ pub fn follow_focus(ui: &Ui) {
     }
 }
 
-/// The ring of a focus around `rect`.
+/// Paints a focus ring around `rect`.
 pub fn ring_around(ui: &Ui, rect: Rect, radius: u8) {
     let stroke = Stroke::new(FOCUS, theme::tokens(ui).sat);
     let radius = CornerRadius::same(radius.saturating_add(2));
@@ -238,12 +237,12 @@ pub fn control(
     response
 }
 
-/// Adds a button with an icon and no text, which has its name under the pointer.
+/// Adds a button with an icon and without text. Its tool-tip shows its name.
 pub fn icon_control(ui: &Ui, salt: impl egui::AsIdSalt, rect: Rect, name: &str) -> Response {
     control(ui, salt, rect, Role::Button, true, name).on_hover_text(name)
 }
 
-/// Adds a button that acts while it is held down.
+/// Adds a button that acts while the operator holds it down.
 pub fn held_control(
     ui: &Ui,
     salt: impl egui::AsIdSalt,
@@ -259,7 +258,7 @@ pub fn held_control(
     response
 }
 
-/// A place for the marks of a drawing: their nodes are children of its node.
+/// Returns a `Ui` for the marks of a drawing. Their nodes are children of its node.
 pub fn marks_of(ui: &mut Ui, drawing: &Response) -> Ui {
     let builder = UiBuilder::new().id_salt("marks").max_rect(drawing.rect);
     ui.new_child(builder.accessibility_parent(drawing.id))
@@ -278,7 +277,7 @@ mod tests {
 
     use super::{super::testing, *};
 
-    /// Text that is painted of `name` in a width in points.
+    /// Returns the painted text of `name` in a width, points.
     fn painted(name: &'static str, width: f32) -> String {
         let window: Harness<'_, ()> = testing::window([400.0, 60.0], (), move |ui, ()| {
             let rect = Rect::from_min_size(Pos2::ZERO, Vec2::new(width, 20.0));

@@ -10,7 +10,7 @@ use crate::ui::{text, theme};
 
 const KNOB: f32 = 6.0;
 
-/// Selectable rates, in degrees per second: 1, 2, 5, 10 and so on from 0.01 up, and the
+/// Returns the selectable rates, degrees per second: 1, 2, 5, 10 and so on from 0.01 up, and the
 /// max rate of the unit.
 pub fn steps(max_deg_s: f64) -> Vec<f64> {
     let mut rates = Vec::new();
@@ -26,7 +26,7 @@ pub fn steps(max_deg_s: f64) -> Vec<f64> {
     rates
 }
 
-/// The rate `step` steps away, clamped to the first and the last.
+/// Returns the rate `step` steps away, degrees per second, clamped to the first and the last.
 pub fn stepped(rate_deg_s: f64, step: i32, max_deg_s: f64) -> f64 {
     let rates = steps(max_deg_s);
     let now = nearest(&rates, rate_deg_s);
@@ -46,8 +46,8 @@ fn nearest(rates: &[f64], rate: f64) -> usize {
     best.0
 }
 
-/// Shows name, slider and value in `rect`; changes `rate_deg_s` and keeps it within the
-/// rates of the unit.
+/// Shows name, slider and value in `rect`. Changes `rate_deg_s` and keeps it within the rates of
+/// the unit.
 pub fn show(ui: &Ui, rect: Rect, max_deg_s: f64, locked: bool, rate_deg_s: &mut f64) {
     let t = theme::tokens(ui);
     *rate_deg_s = rate_deg_s.min(max_deg_s);

@@ -1,5 +1,6 @@
-//! A choice among a few segments side by side. Tab stops at one of them, and the arrows choose another
-//! one, as in any group of radio buttons. Where a choice is a command, they only lead to it.
+//! A choice among a few segments side by side. Tab reaches one of them, and arrow keys choose
+//! another, as in a group of radio buttons. If a choice is a command, arrow keys only move the
+//! focus.
 
 use egui::{
     Align2, CornerRadius, FocusDirection, Id, Key, Modifiers, Rect, Response, Role, Sense, Stroke,
@@ -12,16 +13,16 @@ use crate::ui::{text, theme};
 /// State of a segment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Segment {
-    /// Can be chosen.
+    /// A segment that the operator can choose.
     #[default]
     Free,
-    /// Is in force.
+    /// The segment in force.
     Chosen,
-    /// Is in force, but not by this console: dashed.
+    /// A segment in force that this console did not command, drawn dashed.
     Foreign,
-    /// Requested, but not confirmed yet.
+    /// A requested segment without confirmation yet.
     Pending,
-    /// Cannot be chosen now. A tooltip gives the reason, unless the reason stands beside it.
+    /// A locked segment. A tooltip gives the reason, unless it stands next to the segment.
     Locked(Option<&'static str>),
 }
 
@@ -34,14 +35,14 @@ impl Segment {
 /// Effect of an arrow key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Arrows {
-    /// Chooses the segment that it leads to.
+    /// Choice of the segment that the arrow reaches.
     Choose,
-    /// Moves the focus; Enter or Space chooses.
+    /// Move of the focus; Enter or Space then chooses.
     Focus,
 }
 
-/// Shows segments in `rect`, each as wide as its text needs, with the remaining width shared
-/// evenly. Returns the index of a segment that was clicked or chosen by an arrow key.
+/// Shows segments in `rect`, each as wide as its text needs, and shares the remaining width evenly.
+/// Returns the index of a segment chosen by click or arrow key.
 pub fn show(
     ui: &Ui,
     salt: &str,
@@ -52,8 +53,8 @@ pub fn show(
     show_with(ui, salt, rect, name, segments, Arrows::Choose)
 }
 
-/// Shows a segment for each of these values, of which `value` is chosen. Returns `true` when one was
-/// clicked or chosen by an arrow key.
+/// Shows a segment for each of these values; `value` is the chosen one. Returns `true` if the
+/// operator chose a segment by click or arrow key.
 pub fn choose<T: Copy + PartialEq>(
     ui: &Ui,
     salt: &str,
@@ -72,8 +73,8 @@ pub fn choose<T: Copy + PartialEq>(
     chosen.is_some()
 }
 
-/// Like [`show`] for choices that are carried out at once and may move an antenna: an arrow key that
-/// passes over a segment must not command it.
+/// Shows segments like [`show`] for choices that act immediately and may move an antenna. An arrow
+/// key that passes over a segment must not command it.
 pub fn show_commands(
     ui: &Ui,
     salt: &str,
@@ -149,7 +150,7 @@ fn show_with(
         x = right;
     }
     if let Some(index) = focused {
-        // Only now: a segment that is no stop of Tab yet would lose the focus at once.
+        // The focus moves last: a segment that is not a Tab stop yet would lose it immediately.
         let next = take_arrows(ui, index, &ids, segments);
         if arrows == Arrows::Choose {
             clicked = clicked.or(next);
@@ -178,8 +179,8 @@ fn show_with(
     clicked
 }
 
-/// The segment at which Tab stops: the one that a screen reader asks for or that has the focus, the
-/// chosen one, or else the first.
+/// Returns the segment at which Tab stops. This is the segment that a screen reader requests or
+/// that has the focus, the chosen segment, or else the first.
 fn tab_stop(ui: &Ui, ids: &[Id], segments: &[(&str, Segment)]) -> Option<usize> {
     let focused = ui.memory(egui::Memory::focused);
     let is_free = |index: &usize| segments.get(*index).is_some_and(|(_, state)| !state.is_locked());
@@ -187,7 +188,7 @@ fn tab_stop(ui: &Ui, ids: &[Id], segments: &[(&str, Segment)]) -> Option<usize> 
         let is_asked = |id: &Id| input.has_accesskit_action_request(*id, Action::Focus);
         ids.iter().position(is_asked).filter(is_free)
     });
-    // The toolkit gives it only to what Tab reached before.
+    // egui gives the focus only to a control that was a Tab stop before.
     if let Some(id) = requested.and_then(|requested| ids.get(requested)) {
         ui.memory_mut(|memory| memory.request_focus(*id));
     }
@@ -200,8 +201,8 @@ fn tab_stop(ui: &Ui, ids: &[Id], segments: &[(&str, Segment)]) -> Option<usize> 
         .or_else(|| (0..segments.len()).find(is_free))
 }
 
-/// Leads the focus from the segment at `index` to the next free one in the direction of an arrow, from
-/// the last one to the first. Returns that segment.
+/// Moves the focus from the segment at `index` to the next free one in the direction of an arrow.
+/// The focus wraps around at the ends. Returns the new segment.
 fn take_arrows(ui: &Ui, index: usize, ids: &[Id], segments: &[(&str, Segment)]) -> Option<usize> {
     let [back, on] = ui.input_mut(|input| {
         [[Key::ArrowLeft, Key::ArrowUp], [Key::ArrowRight, Key::ArrowDown]]
@@ -225,7 +226,7 @@ fn take_arrows(ui: &Ui, index: usize, ids: &[Id], segments: &[(&str, Segment)]) 
     next
 }
 
-/// A place for the segments, whose nodes are children of the node of the group.
+/// Returns a `Ui` for the segments, whose nodes are children of the node of the group.
 fn inner_ui(ui: &Ui, group: &Response) -> Ui {
     let builder = UiBuilder::new().layer_id(ui.layer_id()).max_rect(group.rect);
     let builder = builder.accessibility_parent(group.id);
@@ -252,7 +253,7 @@ mod tests {
 
     const WORDS: [&str; 4] = ["Azimuth", "Pair", "Locked", "Elevation"];
 
-    /// A group of which `state` is chosen, between two buttons.
+    /// Returns a window with a group, whose segment `chosen` is chosen, between two buttons.
     fn window(chosen: usize) -> Harness<'static, usize> {
         testing::window([400.0, 100.0], chosen, |ui, chosen| {
             let _ = ui.button("before");

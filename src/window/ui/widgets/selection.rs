@@ -8,11 +8,12 @@ use super::list::Step;
 
 /// The keys of a list in the order of its rows.
 pub trait Rows<K> {
-    /// Key of the row at `index`.
+    /// Returns the key of the row at `index`.
     fn key(&self, index: usize) -> Option<K>;
-    /// Place of a key, or the place from which the keys go on where its row is gone.
+    /// Returns the place of a key. For a removed row, the error is the place from which the keys
+    /// continue.
     fn place(&self, key: K) -> Result<usize, usize>;
-    /// The row to which the first key leads.
+    /// Returns the row that the first key press selects.
     fn start(&self) -> usize;
     fn count(&self) -> usize;
 }
@@ -35,7 +36,7 @@ impl Rows<u32> for [u32] {
     }
 }
 
-/// Rows in the order of their keys, of which the last is the newest.
+/// Rows in the order of their keys; the last row is the newest.
 impl Rows<u64> for VecDeque<u64> {
     fn key(&self, index: usize) -> Option<u64> {
         self.get(index).copied()
@@ -57,16 +58,16 @@ impl Rows<u64> for VecDeque<u64> {
 /// Effect of a click or key on a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Choice {
-    /// Selects it.
+    /// Selection of the row.
     Select,
-    /// Selects it and marks the range from the anchor on.
+    /// Selection of the row, and marks for the range from the anchor.
     Range,
-    /// Selects it and marks or unmarks it.
+    /// Selection of the row, with its mark toggled.
     Toggle,
 }
 
 impl From<Modifiers> for Choice {
-    /// The effect of a click.
+    /// Returns the effect of a click.
     fn from(modifiers: Modifiers) -> Self {
         match modifiers {
             Modifiers { shift: true, .. } => Self::Range,
@@ -82,13 +83,14 @@ impl From<Step> for Choice {
     }
 }
 
-/// Rows with check boxes: their marks stay while another row is selected.
+/// Selection of rows with check boxes. The marks stay while another row is selected.
 pub type BoxSelection<K> = Selection<K, true>;
 
-/// Rows without: the selected row is marked, and others with it by Shift and Ctrl alone.
+/// Selection of rows without check boxes. The selected row is marked; only Shift and Ctrl mark
+/// others.
 pub type RowSelection<K> = Selection<K, false>;
 
-/// The selected row and the marked ones.
+/// The selected row and the marked rows.
 #[derive(Debug)]
 pub struct Selection<K, const HAS_BOXES: bool> {
     row: Option<K>,
@@ -104,7 +106,7 @@ impl<K, const HAS_BOXES: bool> Default for Selection<K, HAS_BOXES> {
 }
 
 impl<K: Copy + Ord, const HAS_BOXES: bool> Selection<K, HAS_BOXES> {
-    /// Key of the selected row.
+    /// Returns the key of the selected row.
     pub fn row(&self) -> Option<K> {
         self.row
     }
@@ -118,12 +120,12 @@ impl<K: Copy + Ord, const HAS_BOXES: bool> Selection<K, HAS_BOXES> {
         self.marked.contains(&key)
     }
 
-    /// The marked rows in the order of their keys.
+    /// Returns the marked rows in the order of their keys.
     pub fn marked(&self) -> &BTreeSet<K> {
         &self.marked
     }
 
-    /// The marked rows, or the selected one if none is.
+    /// Returns the marked rows, or the selected row if none is marked.
     pub fn chosen(&self) -> Vec<K> {
         if self.marked.is_empty() {
             return self.row.into_iter().collect();
@@ -153,7 +155,7 @@ impl<K: Copy + Ord, const HAS_BOXES: bool> Selection<K, HAS_BOXES> {
         }
     }
 
-    /// Takes a step from the selected row. Returns the place of the new one.
+    /// Takes a step from the selected row. Returns the place of the new row.
     pub fn go(&mut self, step: Step, rows: &(impl Rows<K> + ?Sized)) -> Option<usize> {
         let place = match self.row.map(|row| rows.place(row)) {
             None => rows.start(),
@@ -171,7 +173,8 @@ impl<K: Copy + Ord, const HAS_BOXES: bool> Selection<K, HAS_BOXES> {
         }
     }
 
-    /// Marks all of `rows`. Without check boxes, a range goes from the first, and the last is selected.
+    /// Marks all of `rows`. Without check boxes, also sets the anchor to the first row and selects
+    /// the last row.
     pub fn mark_all(&mut self, rows: &(impl Rows<K> + ?Sized)) {
         if !HAS_BOXES {
             self.marked.clear();

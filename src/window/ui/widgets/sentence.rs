@@ -18,20 +18,20 @@ use crate::ui::{
 const RADIUS: u8 = 6;
 const BAR: f32 = 3.0;
 const LINE: f32 = 20.0;
-/// Line height for a sentence that does not fit at the usual height.
+/// Line height of a sentence that does not fit at the default height, points.
 const DENSE_LINE: f32 = 16.0;
-/// Height reserved for the sentence, so that the controls below do not move under the
-/// operator's hand when it changes: four lines, or six dense ones.
+/// Height reserved for the sentence, points: four lines, or six dense ones. The controls below then
+/// do not move under the operator's hand when the sentence changes.
 const ROOM: f32 = 96.0;
-/// [`ROOM`] in a small window: four lines, or five dense ones.
+/// [`ROOM`] in a small window, points: four lines, or five dense ones.
 const SMALL_ROOM: f32 = 80.0;
-/// A narrower block belongs to a small window.
+/// Width below which the block belongs to a small window, points.
 const SMALL: f32 = 300.0;
 
-/// Kind of the sentence; gives the colour of the bar.
+/// Kind of the sentence, which sets the colour of the bar.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SentenceKind {
-    /// Tracking as wanted.
+    /// Tracking within the beam.
     Tracking,
     /// Moving or waiting on command.
     Commanded,
@@ -56,12 +56,12 @@ impl SentenceKind {
     }
 }
 
-/// Part of a sentence.
+/// A part of a sentence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Span<'a> {
     /// Words, with the spaces around them.
     pub text: &'a str,
-    /// For a name that must be found at a glance.
+    /// `true` for a name that must stand out.
     pub bold: bool,
 }
 
@@ -72,21 +72,20 @@ pub struct Sentence<'a> {
 }
 
 impl Sentence<'_> {
-    /// The words without their weights.
+    /// Returns the words without their weights.
     pub fn plain_text(&self) -> String {
         self.spans.iter().map(|span| span.text).collect()
     }
 }
 
 /// Shows the sentence at `position`, wrapped at `width`, with `foot` points of room below it.
-/// Returns the rectangle of the block. Screen readers read the sentence again whenever it
-/// changes.
+/// Returns the rectangle of the block. Screen readers read the sentence again when it changes.
 pub fn show(ui: &Ui, position: Pos2, width: f32, foot: f32, sentence: &Sentence<'_>) -> Rect {
     let room = if width < SMALL { SMALL_ROOM } else { ROOM };
     show_in(ui, position, width, (room, foot), sentence)
 }
 
-/// Shows the sentence where nothing below it is held down: as high as two lines, or higher.
+/// Shows the sentence where controls below may move: as high as two lines, or higher.
 pub fn show_short(ui: &Ui, position: Pos2, width: f32, sentence: &Sentence<'_>) -> Rect {
     show_in(ui, position, width, (2.0 * LINE, 0.0), sentence)
 }

@@ -8,29 +8,29 @@ use crate::ui::{
     text, theme,
 };
 
-/// Side of the mark before a sentence.
+/// Side of the mark before a sentence, points.
 const MARK: f32 = 12.0;
 const LINE: f32 = 16.0;
 
-/// Tone of a sentence, which gives its mark and colour.
+/// Tone of a sentence, which sets its mark and colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tone {
     Plain,
-    /// Describes the present activity.
+    /// A statement about the current activity.
     Now,
     Good,
-    /// Needs a look.
+    /// A statement that needs attention.
     Caution,
     Bad,
 }
 
-/// Shows a sentence after the mark of its tone; colour alone would not do, as a theme may
-/// have one hue only.
+/// Shows a sentence after the mark of its tone. Colour alone is not enough, since a theme may have
+/// only one hue.
 pub fn line(ui: &mut Ui, tone: Tone, words: &str) {
     sentence(ui, tone, words);
 }
 
-/// A [`line()`] with more for whoever points at it.
+/// Shows a [`line()`] with a tool-tip.
 pub fn line_with_tip(ui: &mut Ui, tone: Tone, words: &str, tip: &str) {
     sentence(ui, tone, words).on_hover_text(tip);
 }
@@ -55,7 +55,7 @@ fn sentence(ui: &mut Ui, tone: Tone, words: &str) -> Response {
     .inner
 }
 
-/// Shows a name and its value, in a font that is read letter by letter.
+/// Shows a name and its value, in a font that makes single letters distinct.
 pub fn fact(ui: &mut Ui, name: &str, value: &str) {
     let t = theme::tokens(ui);
     ui.scope(|ui| {

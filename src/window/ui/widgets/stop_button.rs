@@ -12,9 +12,9 @@ use crate::ui::{
     theme,
 };
 
-/// Size in the usual window.
+/// Size in a normal window, points.
 pub const SIZE: Vec2 = Vec2::new(144.0, 40.0);
-/// Size in a small window.
+/// Size in a small window, points.
 pub const SMALL_SIZE: Vec2 = Vec2::new(120.0, 32.0);
 const RADIUS: u8 = 6;
 
@@ -24,23 +24,23 @@ pub enum StopLook<'a> {
     /// Nothing to report.
     #[default]
     Ready,
-    /// Sent, but rate zero is not measured yet.
+    /// A STOP without confirmation yet; rate zero is not measured.
     Stopping,
-    /// Every antenna has stopped. Shown for 10 s.
+    /// A STOP that has stopped every antenna, shown for 10 s.
     AllStopped,
-    /// An antenna still moves, or does not answer.
+    /// A STOP after which an antenna still moves or does not answer.
     NotConfirmed {
-        /// The antennas that still move, and what to do.
+        /// Sentence with the antennas that still move, and the remedy.
         text: &'a str,
     },
 }
 
-/// Shows STOP in `rect`; the response reports `clicked` in every state. The sentence of
-/// [`StopLook::NotConfirmed`] is part of the accessible name; the caller shows it beside
-/// the button. `description` tells what it stops, as hover text and for screen readers.
+/// Shows STOP in `rect`; the response reports `clicked` in every state. The accessible name
+/// contains the sentence of [`StopLook::NotConfirmed`], and the caller shows it next to the button.
+/// `description` lists the antennas that STOP stops, as hover text and for screen readers.
 pub fn show(ui: &Ui, rect: Rect, state: StopLook<'_>, description: &str) -> Response {
     let response = ui.interact(rect, ui.make_persistent_id("stop"), Sense::click());
-    // In the frame of the click the model does not know of it yet.
+    // In the frame of the click, the model does not contain the STOP yet.
     let is_told = matches!(state, StopLook::NotConfirmed { .. });
     let state = if response.clicked() && !is_told { StopLook::Stopping } else { state };
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name(state)));

@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use super::sentence::Span;
 use crate::{model::ThemeName, ui::theme};
 
-/// A window of `size` with the fonts and colours of the program.
+/// Returns a window of `size` with the fonts and colours of Azel.
 pub(crate) fn window<'a, State: 'a>(
     size: impl Into<Vec2>,
     state: State,

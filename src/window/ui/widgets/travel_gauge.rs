@@ -10,9 +10,9 @@ use crate::ui::{
     tokens::Tokens,
 };
 
-/// Height of one gauge.
+/// Height of one gauge, points.
 pub const HEIGHT: f32 = 28.0;
-/// Within this distance of an end of the travel the gauge is hatched.
+/// Distance from an end of the travel within which the gauge is hatched, degrees.
 const NEAR_END_DEG: f64 = 10.0;
 const TAG: Vec2 = Vec2::new(25.0, 17.0);
 const TRACK: f32 = 4.0;
@@ -20,25 +20,26 @@ const TRACK: f32 = 4.0;
 #[derive(Debug, Clone, Copy)]
 pub struct TravelModel<'a> {
     pub name: &'a str,
-    /// Range of the gauge; the parts outside the travel are red.
+    /// Range of the gauge, degrees; the parts outside the travel are red.
     pub scale_deg: (f64, f64),
-    /// Travel that the unit may use.
+    /// Travel that the unit may use, degrees.
     pub travel_deg: (f64, f64),
     pub position_deg: Option<f64>,
-    /// The unit does not answer in time: position and limits are those of its last answer.
+    /// `true` if the unit does not answer in time; position and limits are then from its last
+    /// answer.
     pub is_old: bool,
-    /// Decimals of the shown position.
+    /// Number of decimals of the position.
     pub decimals: usize,
-    /// The limit switch at the lower end is set.
+    /// `true` if the limit switch at the lower end is set.
     pub lower_limit: bool,
-    /// The limit switch at the upper end is set.
+    /// `true` if the limit switch at the upper end is set.
     pub upper_limit: bool,
-    /// Shows a tick for each full turn, for mounts that wrap their cables.
+    /// `true` to show a tick for each full turn, for mounts that wrap their cables.
     pub turns: bool,
 }
 
 impl TravelModel<'_> {
-    /// The position, formatted.
+    /// Returns the formatted position.
     pub fn number(&self) -> String {
         self.position_deg.map_or_else(
             || super::axes_table::UNKNOWN.to_owned(),
@@ -47,7 +48,7 @@ impl TravelModel<'_> {
     }
 }
 
-/// The place of a value on the gauge, 0 at the lower end to 1 at the upper.
+/// Returns the place of a value on the gauge, from 0 at the lower end to 1 at the upper end.
 fn part(value_deg: f64, (low, high): (f64, f64)) -> f32 {
     if high > low && value_deg.is_finite() {
         ((value_deg - low) / (high - low)).clamp(0.0, 1.0) as f32
@@ -56,7 +57,7 @@ fn part(value_deg: f64, (low, high): (f64, f64)) -> f32 {
     }
 }
 
-/// The hatched stretch at an end of the travel, if the position is near one.
+/// Returns the hatched stretch at an end of the travel, if the position is near an end.
 fn near_end(position_deg: f64, (low, high): (f64, f64)) -> Option<(f64, f64)> {
     if position_deg >= high - NEAR_END_DEG {
         Some((high - NEAR_END_DEG, high))
@@ -67,7 +68,7 @@ fn near_end(position_deg: f64, (low, high): (f64, f64)) -> Option<(f64, f64)> {
     }
 }
 
-/// Places of the ticks: the middle, or each full turn.
+/// Returns the places of the ticks: the middle, or each full turn.
 fn ticks(model: &TravelModel<'_>) -> Vec<f64> {
     let (low, high) = model.scale_deg;
     if !model.turns {
@@ -77,7 +78,7 @@ fn ticks(model: &TravelModel<'_>) -> Vec<f64> {
     (first..=last).map(|turn| f64::from(turn) * 360.0).collect()
 }
 
-/// Shows the gauge in `rect`: name, limit tags, track, number.
+/// Shows the gauge in `rect`: name, limit tags, track and number.
 pub fn show(ui: &Ui, rect: Rect, model: &TravelModel<'_>) {
     let t = theme::tokens(ui);
     let y = rect.center().y;

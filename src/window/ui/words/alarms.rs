@@ -15,7 +15,7 @@ use crate::{
     ui::format,
 };
 
-/// When an alarm came, and how often.
+/// Returns the time of an alarm, and its number of occurrences.
 pub fn alarm_times(alarm: &Alarm, now: Timestamp) -> String {
     let first = format::moment(alarm.raised, now);
     match alarm.count {
@@ -24,7 +24,7 @@ pub fn alarm_times(alarm: &Alarm, now: Timestamp) -> String {
     }
 }
 
-/// The state of an alarm in words.
+/// Returns the state of an alarm in words.
 pub fn alarm_state(state: AlarmState, now: Timestamp) -> String {
     match state {
         AlarmState::New => "new".to_owned(),
@@ -39,12 +39,12 @@ pub fn alarm_state(state: AlarmState, now: Timestamp) -> String {
     }
 }
 
-/// The cause in kilometres, in the window too: the desktop and the record have the same words.
+/// Describes the cause in kilometres, so that window, desktop and record have the same words.
 fn cause_of(ranked: &Ranked) -> String {
     super::cause(ranked, DistanceUnit::Kilometres)
 }
 
-/// Why an antenna is off its satellite, as a sentence.
+/// Returns the reason why an antenna is off its satellite, as a sentence.
 pub fn off_because(cause: &OffTargetCause, now: Timestamp) -> String {
     match cause {
         OffTargetCause::Reported(ranked) => super::capitalised(&cause_of(ranked)) + ".",
@@ -54,8 +54,8 @@ pub fn off_because(cause: &OffTargetCause, now: Timestamp) -> String {
     }
 }
 
-/// An alarm in words. `antenna` is the name of its antenna, if it has one.
-// One arm a kind.
+/// Describes an alarm. `antenna` is the name of its antenna, if it has one.
+// The match has one arm for each kind.
 #[allow(clippy::too_many_lines)]
 pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
     match kind {
@@ -278,7 +278,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
     }
 }
 
-/// A note on an entry of the station file, as a sentence.
+/// Returns a note on an entry of the station file, as a sentence.
 pub fn setting_note(note: &Note) -> String {
     let line = note.line.map_or_else(String::new, |line| format!(" (line {line})"));
     let place = format!("{}{line}", note.place);

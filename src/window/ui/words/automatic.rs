@@ -19,10 +19,11 @@ use crate::{
     ui::format,
 };
 
-/// Lets a suspended antenna go on, where its next pass has no room or is not known.
+/// Label of the button that resumes a suspended antenna whose next pass is unknown or too long for
+/// a label.
 pub const RESUME: &str = "Resume";
 
-/// Why automatic operation of an antenna is off, as a sentence.
+/// Returns the reason why automatic operation of an antenna is off, as a sentence.
 pub fn off_reason(because: OffBecause) -> &'static str {
     match because {
         OffBecause::NotSwitchedOn => "Nobody has switched it on since the start.",
@@ -36,7 +37,7 @@ pub fn off_reason(because: OffBecause) -> &'static str {
     }
 }
 
-/// Cause of an interruption, as a sentence.
+/// Returns the cause of an interruption, as a sentence.
 pub fn interruption(kind: Interruption) -> &'static str {
     match kind {
         Interruption::ByHand => "The antenna was commanded by hand.",
@@ -52,7 +53,7 @@ pub fn interruption(kind: Interruption) -> &'static str {
     }
 }
 
-/// Why a unit cannot begin a pass, as a sentence.
+/// Returns the reason why a unit cannot begin a pass, as a sentence.
 pub fn not_ready(reason: NotReady) -> &'static str {
     match reason {
         NotReady::Fault => "A fault of the unit blocks motion. Clear the fault.",
@@ -63,7 +64,7 @@ pub fn not_ready(reason: NotReady) -> &'static str {
     }
 }
 
-/// The interruption in two or three words.
+/// Returns the interruption in two or three words.
 fn suspended(interruption: Interruption) -> &'static str {
     match interruption {
         Interruption::ByHand => "Suspended by hand.",
@@ -77,8 +78,8 @@ fn name_of(model: &Model, entry: &Entry) -> String {
     schedule::satellite_name(model, entry.pass.satellite)
 }
 
-/// State of automatic operation of an antenna, in one line. A time stands before a name, which may
-/// be cut.
+/// Returns the state of automatic operation of an antenna, in one line. A time comes before a name,
+/// because a long name may be cut.
 pub fn in_short(model: &Model, antenna: &AntennaModel) -> String {
     let moment = |time| format::moment(time, model.now);
     match &antenna.operation {
@@ -105,8 +106,8 @@ pub fn in_short(model: &Model, antenna: &AntennaModel) -> String {
     }
 }
 
-/// State of automatic operation of an antenna, and its next action and time, as one or two
-/// sentences; `None` while it is off.
+/// Returns the state of automatic operation of an antenna with its next action and time, as one or
+/// two sentences; `None` while it is off.
 pub fn in_full(model: &Model, antenna: &AntennaModel) -> Option<String> {
     let moment = |time| format::moment(time, model.now);
     let in_time = |time| format!("{}, in {}", moment(time), format::time_left(model.now, time));
@@ -143,7 +144,7 @@ pub fn in_full(model: &Model, antenna: &AntennaModel) -> Option<String> {
     })
 }
 
-/// The next pass of an antenna that takes none, as a sentence.
+/// Returns a sentence about the next pass of an antenna that takes none now.
 fn next(model: &Model, antenna: &AntennaModel) -> String {
     let Some(entry) = model.next_entry(antenna.id()) else {
         return "No pass is planned.".to_owned();
@@ -161,7 +162,7 @@ fn next(model: &Model, antenna: &AntennaModel) -> String {
     )
 }
 
-/// The pass after the one that an antenna takes, as the end of a sentence.
+/// Returns the next pass after the current one, as the end of a sentence.
 fn following(model: &Model, antenna: &AntennaModel, taking: &Taking) -> String {
     let entries = model.schedule.schedule.entries.iter();
     let own = entries.filter(|entry| entry.antenna == antenna.id() && entry.start >= taking.end);
@@ -172,7 +173,7 @@ fn following(model: &Model, antenna: &AntennaModel, taking: &Taking) -> String {
     })
 }
 
-/// The words of the button that lets a suspended antenna go on, with its next pass.
+/// Returns the label of the button that resumes a suspended antenna, with its next pass.
 pub fn go_on(model: &Model, antenna: &AntennaModel) -> Option<String> {
     if !matches!(antenna.operation, Operation::Suspended { .. }) {
         return None;
@@ -186,8 +187,8 @@ pub fn go_on(model: &Model, antenna: &AntennaModel) -> Option<String> {
     ))
 }
 
-/// The price of closing the station for automatic operation, as sentences; `None` while it is off for all
-/// antennas.
+/// Returns the effect of closing the station on automatic operation, as sentences; `None` while it
+/// is off for all antennas.
 pub fn lost_by_closing(model: &Model) -> Option<String> {
     let is_on = |antenna: &&AntennaModel| !matches!(antenna.operation, Operation::Off(_));
     let antennas = || model.antennas.iter().filter(is_on);
@@ -206,7 +207,7 @@ pub fn lost_by_closing(model: &Model) -> Option<String> {
     Some(format!("Automatic operation of {names} ends: it takes no pass until {end_text}.{next}"))
 }
 
-/// State of automatic operation, in a word or two.
+/// Returns the state of automatic operation in one or two words.
 pub fn standing(operation: &Operation) -> &'static str {
     match operation {
         Operation::Off(_) => "off",
@@ -220,7 +221,7 @@ pub fn standing(operation: &Operation) -> &'static str {
     }
 }
 
-/// Why a pass or a part of it was missed: the end of a sentence.
+/// Returns the reason why a pass or a part of it was missed, as the end of a sentence.
 pub fn miss_cause(cause: MissCause) -> String {
     let sentence = match cause {
         MissCause::Off(because) => off_reason(because),
@@ -236,7 +237,7 @@ pub fn miss_cause(cause: MissCause) -> String {
     sentence.to_owned()
 }
 
-/// Why a stretch of a pass was lost, as a sentence.
+/// Returns the reason why a stretch of a pass was lost, as a sentence.
 fn lost(cause: LossCause) -> &'static str {
     match cause {
         LossCause::NotMeasured => "The unit reported no positions.",
@@ -258,8 +259,8 @@ fn lost(cause: LossCause) -> &'static str {
     }
 }
 
-/// Why automatic operation does not track a pass under way, as a sentence; `None` where nothing keeps
-/// it from tracking.
+/// Returns the reason why automatic operation does not track a current pass, as a sentence; `None`
+/// if nothing prevents tracking.
 pub fn not_tracking(operation: &Operation) -> Option<String> {
     let cause = match operation {
         Operation::Off(because) => MissCause::Off(*because),
@@ -273,7 +274,7 @@ pub fn not_tracking(operation: &Operation) -> Option<String> {
     Some(miss_cause(cause))
 }
 
-/// Outcome of a pass, as a sentence.
+/// Returns the outcome of a pass, as a sentence.
 pub fn flown(flown: &Flown, now: Timestamp) -> String {
     let (_, aos) = flown.pass;
     let cause = flown.cause.map_or_else(String::new, |cause| format!(" {}", miss_cause(cause)));
@@ -281,7 +282,7 @@ pub fn flown(flown: &Flown, now: Timestamp) -> String {
     format!("{pass}: {}.{cause}", flown_part(flown))
 }
 
-/// Part of a pass that was tracked, or missed: the end of a sentence.
+/// Returns the tracked or missed part of a pass, as the end of a sentence.
 pub fn flown_part(flown: &Flown) -> String {
     let Flown { of_s, in_beam_s, cause, .. } = flown;
     if cause.is_none() {
@@ -291,7 +292,7 @@ pub fn flown_part(flown: &Flown) -> String {
     format!("missed {} of {}", format::duration(flown.lost_s()), format::duration(*of_s))
 }
 
-/// A line of the list of the day, as a sentence.
+/// Returns a line of the list of the day, as a sentence.
 pub fn day_line(line: &DayLine, now: Timestamp) -> String {
     match &line.event {
         DayEvent::SwitchedOn => "Automatic operation is on.".to_owned(),

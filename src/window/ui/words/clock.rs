@@ -1,4 +1,4 @@
-//! Differences of clocks in words.
+//! Words for differences between clocks.
 
 use jiff::Timestamp;
 
@@ -7,16 +7,16 @@ use crate::{
     ui::format,
 };
 
-/// Difference of a clock that can come from the link, seconds.
+/// Max difference of a clock that the link can cause, seconds.
 const AGREES_S: f64 = 0.05;
 
-/// A clock that is `ahead_s` seconds ahead, such as "4.0 s behind".
+/// Describes a clock that is `ahead_s` seconds ahead, such as "4.0 s behind".
 pub(super) fn side(ahead_s: f64) -> String {
     let side = if ahead_s < 0.0 { "behind" } else { "ahead" };
     format!("{} {side}", format::age(ahead_s.abs()))
 }
 
-/// A unit's clock compared with this computer's.
+/// Compares a unit's clock with the clock of this computer.
 pub fn compared_clock(ahead_s: f64) -> String {
     if agrees(ahead_s) { "agrees".to_owned() } else { side(ahead_s) }
 }
@@ -25,7 +25,7 @@ pub(super) fn agrees(ahead_s: f64) -> bool {
     ahead_s.abs() < AGREES_S
 }
 
-/// The same with the date that the clock shows, if it is another day.
+/// Describes a difference like [`side`], with the date of the clock if it shows another day.
 pub(super) fn difference(ahead_s: f64, now: Timestamp) -> String {
     if ahead_s.abs() < DAY_S {
         return side(ahead_s);
@@ -33,7 +33,7 @@ pub(super) fn difference(ahead_s: f64, now: Timestamp) -> String {
     format!("at {}, {}", format::iso_date(add_seconds(now, ahead_s)), side(ahead_s))
 }
 
-/// The change of a clock by `by_s` seconds to `time`.
+/// Describes the change of a clock by `by_s` seconds to `time`.
 pub(super) fn step(by_s: f64, time: Option<Timestamp>) -> String {
     match time {
         _ if by_s.abs() < DAY_S => format!("by {} s", format::signed(by_s, 1)),

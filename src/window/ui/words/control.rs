@@ -1,8 +1,8 @@
-//! The party in control of an antenna, in words.
+//! Words for the party in control of an antenna.
 
 use crate::contract::control::{NetworkClient, Party};
 
-/// Name of a party, in the middle of a sentence.
+/// Names a party in the middle of a sentence.
 pub fn party(party: Party) -> String {
     match party {
         Party::Window => "the window".to_owned(),
@@ -12,14 +12,13 @@ pub fn party(party: Party) -> String {
     }
 }
 
-/// Name of a connected program, at the beginning of a sentence: what the operating system calls it
-/// and where it is.
+/// Names a connected program at the beginning of a sentence: its process name and its address.
 fn program(client: &NetworkClient) -> String {
     let name = client.program.as_deref().unwrap_or("A program");
     format!("{name} ({})", client.address)
 }
 
-/// A program in control; `last`: its last line and the age of it.
+/// Describes a program in control; `last` is its last line and the age of that line.
 pub fn in_control(client: &NetworkClient, last: Option<(&str, &str)>) -> String {
     let program = program(client);
     match last {
@@ -30,7 +29,7 @@ pub fn in_control(client: &NetworkClient, last: Option<(&str, &str)>) -> String 
     }
 }
 
-/// A program whose motion was refused, because the operator has to decide.
+/// Describes a program whose motion waits for the operator's decision.
 pub fn asks_for_control(client: &NetworkClient, in_control: Option<Party>) -> String {
     let program = program(client);
     match in_control {
@@ -60,7 +59,7 @@ pub fn connected(clients: &[NetworkClient], in_control: Option<Party>) -> String
     }
 }
 
-/// A port that the operating system refuses.
+/// Describes a port that the operating system refuses.
 pub fn port_failed(reason: &str) -> String {
     format!(
         "The port for other programs is not open: {reason}. Azel tries again every 5 s. Close the \

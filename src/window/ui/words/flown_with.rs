@@ -1,4 +1,4 @@
-//! Conditions of a recorded track: elements, commands to the antenna, and clocks.
+//! Words for the conditions of a recorded track: elements, commands to the antenna, and clocks.
 
 use jiff::Timestamp;
 
@@ -26,7 +26,7 @@ pub enum FactKind {
     NotKnown,
 }
 
-/// Conditions of a recorded track, and its rms error.
+/// Returns the conditions of a recorded track, and its rms error.
 pub fn facts(report: &RecordedReport, now: Timestamp) -> Vec<Fact> {
     let fact = |name, value, kind| Fact { name, value, kind };
     let plain = |name, value| fact(name, value, FactKind::Plain);
@@ -78,7 +78,7 @@ pub fn facts(report: &RecordedReport, now: Timestamp) -> Vec<Fact> {
     facts
 }
 
-/// First step where the time explains the error, and the clock of the unit was off by then.
+/// Returns the first remedy if a time error explains the error and the clock of the unit was off.
 pub fn clock_first(report: &RecordedReport) -> Option<&'static str> {
     let is_time = |explanation: &Explanation| {
         explanation.causes().any(|cause| matches!(cause, Cause::Late { .. }))

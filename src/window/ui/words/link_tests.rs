@@ -1,4 +1,4 @@
-//! Tests of links: what came of them, and what to check.
+//! Words for tests of links: the outcome, and the checks to make.
 
 use std::time::Duration;
 
@@ -16,10 +16,10 @@ use crate::{
     ui::{format, widgets::status_line::Tone, words::sentence},
 };
 
-/// A test that is younger has no age.
+/// Age below which a test shows no age, seconds.
 const JUST_NOW_S: f64 = 10.0;
 
-/// A place on the ground, by its coordinates.
+/// Formats a place on the ground as coordinates.
 pub fn place(latitude_deg: f64, longitude_deg: f64) -> String {
     format!("{}, {}", format::latitude(latitude_deg, 3), format::longitude(longitude_deg, 3))
 }
@@ -29,7 +29,7 @@ pub fn link_test_reached(test: &LinkTest) -> bool {
     reached_state(test).is_some()
 }
 
-/// The number of faults that a reached unit reports.
+/// Returns the number of faults that a reached unit reports.
 pub fn link_test_faults(test: &LinkTest) -> usize {
     reached_state(test).map_or(0, |state| count(state, CheckState::Fault))
 }
@@ -50,7 +50,7 @@ fn count(state: &AntennaState, check_state: CheckState) -> usize {
     state.checks.iter().filter(|check| check.state == check_state).count()
 }
 
-/// The state of a test in a few words.
+/// Returns the state of a test in a few words.
 pub fn link_test_state(test: Option<&LinkTest>) -> (Tone, String) {
     let Some(test) = test else { return (Tone::Plain, "not tested".to_owned()) };
     let (tone, words) = match &test.stage {
@@ -83,7 +83,7 @@ fn reached_in_short(after: Duration, state: &AntennaState) -> (Tone, String) {
     }
 }
 
-/// The outcome of a test, what to check, and how long ago it was at `now`.
+/// Returns the outcome of a test, the checks to make, and the age of the test at `now`.
 pub fn link_test(test: &LinkTest, is_demo: bool, now: Timestamp) -> Vec<(Tone, String)> {
     let connection = &test.antenna.connection;
     let (spec, address) = (connection.spec(), connection.address.as_str());

@@ -1,4 +1,4 @@
-//! Sentences of notifications and reminders.
+//! Sentences for notifications and reminders.
 
 use jiff::Timestamp;
 
@@ -10,7 +10,7 @@ use crate::{
     ui::format,
 };
 
-/// Title and text of a notification.
+/// Returns title and text of a notification.
 pub fn notice(subject: &NoticeSubject, station: &Snapshot) -> (String, String) {
     let (now, antennas) = (station.moment.utc, &station.antennas);
     let (word, text) = match subject {
@@ -28,7 +28,7 @@ pub fn notice(subject: &NoticeSubject, station: &Snapshot) -> (String, String) {
     (format!("{word}, {}", station.station.name), text)
 }
 
-/// A reminder in words.
+/// Describes a reminder.
 pub fn reminder(due: &Reminder, antennas: &[AntennaModel], now: Timestamp) -> String {
     let able = antennas.iter().filter(|antenna| due.can_track.contains(&antenna.id()));
     let names: Vec<&str> = able.map(|antenna| antenna.config.name.as_str()).collect();
@@ -42,7 +42,7 @@ pub fn reminder(due: &Reminder, antennas: &[AntennaModel], now: Timestamp) -> St
     )
 }
 
-/// Title and text of a notification with which the operator tries the desktop.
+/// Returns title and text of a test notification.
 pub fn trial(sound: Sound) -> (String, String) {
     let text = match sound {
         Sound::Falling => "This is how falling tones sound.",
@@ -51,7 +51,7 @@ pub fn trial(sound: Sound) -> (String, String) {
     ("Azel".to_owned(), text.to_owned())
 }
 
-/// Services that the desktop lacks, in sentences.
+/// Describes the services that the desktop lacks.
 pub fn missing_outlets(outlets: &Outlets) -> Vec<MissingOutlet> {
     let words_for = |subject, missing: &Option<Missing>| {
         let missing = missing.as_ref()?;
@@ -66,9 +66,9 @@ pub fn missing_outlets(outlets: &Outlets) -> Vec<MissingOutlet> {
 /// A kind of notice that the desktop does not deliver.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MissingOutlet {
-    /// Service, reason, and remedy.
+    /// Service, reason and remedy in words.
     pub words: String,
-    /// The answer of the system, as it came.
+    /// Unchanged answer of the system.
     pub raw: Option<String>,
 }
 

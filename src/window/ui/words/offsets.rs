@@ -1,4 +1,4 @@
-//! Offsets of a track.
+//! Words for the offsets of a track.
 
 use jiff::{SignedDuration, Timestamp};
 
@@ -9,11 +9,12 @@ use crate::{
     ui::format,
 };
 
-/// Why a unit that tracks by itself gets no offsets.
+/// Reason why a unit that tracks on its own gets no offsets.
 pub const OFFSETS_NEED_ELEMENTS: &str =
     "Azel has no elements of what the unit tracks, and cannot judge where an offset would lead.";
 
-/// Handling of offsets that a unit adds to its own track; in all, it adds `current`.
+/// Explains the handling of offsets that a unit adds to its own track. `current` is the sum of
+/// these offsets.
 pub fn offsets_on_unit_about(current: &str) -> String {
     format!(
         "Each step is written to the unit, read back, and taken back after the track. The unit adds \
@@ -22,7 +23,7 @@ pub fn offsets_on_unit_about(current: &str) -> String {
     )
 }
 
-/// The offsets that a unit adds to its own track.
+/// Returns the offsets that a unit adds to its own track.
 pub fn offsets_on_unit(unit: Option<&device::Offsets>) -> String {
     let Some(unit) = unit else { return "not read yet".to_owned() };
     let step =
@@ -35,12 +36,12 @@ pub fn offsets_on_unit(unit: Option<&device::Offsets>) -> String {
     listed(offsets.into_iter())
 }
 
-/// An offset that was not added to the track of a unit.
+/// Describes an offset that was not added to the track of a unit.
 pub fn offset_not_taken(error: &WriteError) -> String {
     format!("The offset is not in force: {error}.")
 }
 
-/// Offsets of a track that are still on a unit.
+/// Describes the offsets of a track that are still on a unit.
 pub fn offsets_left(
     antenna: &str,
     added: TrackOffsets,
@@ -66,7 +67,7 @@ pub fn offsets_left(
     }
 }
 
-/// Name of an offset, as its line on the card says.
+/// Returns the name of an offset as on the card.
 pub fn offset_name(offset: Offset) -> &'static str {
     match offset {
         Offset::Time(_) => "Time",
@@ -77,7 +78,7 @@ pub fn offset_name(offset: Offset) -> &'static str {
     }
 }
 
-/// Its value with sign and unit.
+/// Returns the value of an offset with sign and unit.
 pub fn offset_value(offset: Offset) -> String {
     match offset {
         Offset::Time(time) => format!("{} s", format::signed(time.as_secs_f64(), 2)),
@@ -88,7 +89,7 @@ pub fn offset_value(offset: Offset) -> String {
     }
 }
 
-/// All that are not zero, in one line.
+/// Lists all offsets that are not zero, in one line.
 pub fn offsets(offsets: TrackOffsets) -> String {
     listed(offsets.components().into_iter())
 }
@@ -107,7 +108,7 @@ fn listed(offsets: impl Iterator<Item = Offset>) -> String {
     if words.is_empty() { "none".to_owned() } else { words.join(", ") }
 }
 
-/// The offset in the middle of a sentence.
+/// Returns an offset for the middle of a sentence.
 pub fn offset(offset: Offset) -> String {
     let value = offset_value(offset);
     match offset {

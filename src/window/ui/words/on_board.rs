@@ -14,7 +14,7 @@ use crate::{
     ui::format,
 };
 
-/// The reason why a unit misses, as a clause that begins with the unit.
+/// Returns the reason why a unit misses, as a clause that begins with the unit.
 pub fn cause(ranked: &Ranked, unit: DistanceUnit) -> String {
     match &ranked.cause {
         Cause::Refraction => {
@@ -65,10 +65,10 @@ fn place_words(place: Place) -> String {
     format!("{} {}", angle(place.latitude_deg, 'N', 'S'), angle(place.longitude_deg, 'E', 'W'))
 }
 
-/// The amount by which a unit would miss `name`, and the reason.
+/// Returns the deviation by which a unit would miss `name`, and the reason.
 pub fn would_miss(name: &str, found: &Supervision, now: Timestamp, unit: DistanceUnit) -> String {
     let deviation_text = format::degrees(found.worst.angle.degrees(), 1);
-    // In a pass under way the worst may be over.
+    // In a current pass, the worst time may lie in the past.
     let is_ahead = found.worst.time > now;
     let time_text = if is_ahead {
         format!(" at {}", format::moment(found.worst.time, now))
@@ -86,7 +86,7 @@ pub fn would_miss(name: &str, found: &Supervision, now: Timestamp, unit: Distanc
     }
 }
 
-/// Unknown facts about a unit; `None` if nothing or only its elements are unknown.
+/// Lists unknown facts about a unit; `None` if nothing or only its elements are unknown.
 pub fn not_known(found: &Supervision) -> Option<String> {
     let word = |unknown: &Unknown| match unknown {
         Unknown::Place => Some("its site"),
@@ -98,14 +98,14 @@ pub fn not_known(found: &Supervision) -> Option<String> {
     (!words.is_empty()).then(|| format!("The unit has not reported {} yet.", format::list(&words)))
 }
 
-/// The note on a unit that tracks well enough.
+/// Returns the note on a unit that tracks well enough.
 pub fn within_beam(found: &Supervision, unit: DistanceUnit) -> Option<String> {
     let first = found.causes.first()?;
     let deviation_text = format::degrees(found.worst.angle.degrees(), 2);
     Some(format!("Up to {deviation_text} off: {}.", cause(first, unit)))
 }
 
-/// The note on a unit whose minimum elevation is below that of the station.
+/// Returns the note on a unit whose minimum elevation is below that of the station.
 pub fn lower_minimum(unit_deg: f64, station_deg: f64) -> String {
     format!(
         "The unit's minimum elevation is {}, the station's {}. Change the unit's minimum under Antennas.",
@@ -114,7 +114,7 @@ pub fn lower_minimum(unit_deg: f64, station_deg: f64) -> String {
     )
 }
 
-/// The first place where a unit's own program would enter a forbidden zone, and what to do.
+/// Describes the first place where a unit's program would enter a forbidden zone, and the remedy.
 pub fn trespass(trespass: &Trespass, now: Timestamp) -> String {
     let Trespass { time, direction, limit } = trespass;
     let bound = match limit {

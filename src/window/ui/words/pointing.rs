@@ -1,4 +1,4 @@
-//! The pointing model of a mount.
+//! Words for the pointing model of a mount.
 
 use crate::{
     astro::Term,
@@ -26,7 +26,7 @@ pub fn peak_of(body: PeakBody) -> &'static str {
     }
 }
 
-/// Data that a model was fitted to.
+/// Describes the data that a model was fitted to.
 pub fn fitted_to(fit: &PointingFit) -> String {
     let passes =
         if fit.passes == 1 { "1 pass".to_owned() } else { format!("{} passes", fit.passes) };

@@ -1,4 +1,4 @@
-//! Words for the passes of the record: how good they were, and what explains their errors.
+//! Words for the recorded passes: their quality, and the causes of their errors.
 
 use jiff::Timestamp;
 
@@ -16,10 +16,10 @@ use crate::{
     ui::format,
 };
 
-/// Seconds without positions that a list need not tell.
+/// Max time without positions that a list leaves out, seconds.
 const UNTOLD_S: f64 = 10.0;
 
-/// Kind of the track that led the antenna.
+/// Names the kind of track that led the antenna.
 pub fn tracked_by(way: TrackedBy) -> &'static str {
     match way {
         TrackedBy::ProgramTrack => "program track",
@@ -30,7 +30,7 @@ pub fn tracked_by(way: TrackedBy) -> &'static str {
 
 pub const NOT_TRACKED: &str = "Not tracked";
 
-/// A kind of passes, as a choice of the list.
+/// Names a kind of passes, as a choice of the list.
 pub fn listed_kind(kind: ListedKind) -> &'static str {
     match kind {
         ListedKind::Tracked(pass_verdict) => verdict(pass_verdict),
@@ -38,7 +38,7 @@ pub fn listed_kind(kind: ListedKind) -> &'static str {
     }
 }
 
-/// A verdict, as a choice of the list.
+/// Names a verdict, as a choice of the list.
 pub fn verdict(verdict: PassVerdict) -> &'static str {
     match verdict {
         PassVerdict::Good => "Good",
@@ -47,9 +47,9 @@ pub fn verdict(verdict: PassVerdict) -> &'static str {
     }
 }
 
-/// Share within half the beamwidth and the worst error, for a row. For a good pass, only the part
-/// within reach of the mount counts: beside its tick, the share of the whole would look like a
-/// failure.
+/// Returns the share within half the beamwidth and the worst error, for a row. For a good pass,
+/// only the part within reach of the mount counts. The share of the whole pass would look like a
+/// failure next to its tick.
 pub fn in_short(report: &PassReport) -> String {
     let lost_s = |is_meant: &dyn Fn(LossCause) -> bool| -> f64 {
         let intended = report.losses.iter().filter(|lost| is_meant(lost.cause));
@@ -83,15 +83,15 @@ pub fn in_short(report: &PassReport) -> String {
     }
 }
 
-/// A share of the whole, in per cent. Only the whole is 100 %.
+/// Formats a share of the whole in per cent. Only the whole is 100 %.
 fn share(share: f64) -> String {
     let per_cent = (share * 1000.0).floor() / 10.0;
     let decimals = usize::from(per_cent < 100.0);
     format!("{} %", format::number(per_cent, decimals))
 }
 
-/// Cause of the longest loss, or the cause of the error where that loss only says that the antenna
-/// was off its satellite. `None` for a good pass.
+/// Returns the cause of the longest loss. If that loss only says that the antenna was off its
+/// satellite, returns the cause of the error. `None` for a good pass.
 pub fn cause_in_short(pass: &RecordedPass) -> Option<String> {
     let report = &pass.report.report;
     let by_length = |a: &&LostStretch, b: &&LostStretch| a.seconds().total_cmp(&b.seconds());
@@ -99,7 +99,7 @@ pub fn cause_in_short(pass: &RecordedPass) -> Option<String> {
         return None;
     }
     let lost = report.losses.iter().max_by(by_length);
-    // These say when the antenna was off its satellite; a cause of the error says why.
+    // These losses only say when the antenna was off its satellite; a cause of the error says why.
     let is_off = |lost: &LostStretch| {
         use LossCause::{EarlyEnd, LateStart, OutsideBeam};
         matches!(lost.cause, LateStart | EarlyEnd | OutsideBeam)
@@ -107,7 +107,7 @@ pub fn cause_in_short(pass: &RecordedPass) -> Option<String> {
     if let Some(best) = pass.report.causes.first()
         && lost.is_none_or(is_off)
     {
-        // Two with their sizes are longer than a row.
+        // Two causes with their sizes are longer than a row.
         let words = if best.partner.is_some() { names(best) } else { causes(best) };
         return Some(words + &or_alike(&pass.report.causes));
     }
@@ -116,7 +116,7 @@ pub fn cause_in_short(pass: &RecordedPass) -> Option<String> {
     Some(words.map_or("Not explained".to_owned(), |(word, lasts)| format!("{word} {lasts}")))
 }
 
-/// Why a stretch was lost, in the words of a list.
+/// Returns the reason why a stretch was lost, in the words of a list.
 pub fn loss(cause: LossCause) -> &'static str {
     match cause {
         LossCause::NotMeasured => "No positions",
@@ -138,7 +138,7 @@ pub fn loss(cause: LossCause) -> &'static str {
     }
 }
 
-/// The word before an alarm that did not come, but changed.
+/// Returns the word before an alarm that changed; `None` for a new alarm.
 pub fn alarm_change(change: AlarmChange) -> Option<&'static str> {
     match change {
         AlarmChange::Came => None,
@@ -148,7 +148,7 @@ pub fn alarm_change(change: AlarmChange) -> Option<&'static str> {
     }
 }
 
-/// The name of a cause in a table.
+/// Returns the name of a cause in a table.
 pub fn cause(cause: &Cause) -> &'static str {
     match cause {
         Cause::Late { .. } => "Time offset",
@@ -173,17 +173,17 @@ pub fn cause(cause: &Cause) -> &'static str {
     }
 }
 
-/// A cause that acts together with the one above it.
+/// Returns the name of a cause that acts together with the cause above it.
 pub fn second_cause(second: &Cause) -> String {
     format!("with {}", inside_sentence(cause(second)))
 }
 
-/// The positions that causes were fitted to.
+/// Returns the number of positions that the causes were fitted to.
 pub fn fitted_to(points: usize) -> String {
     format!("fitted to {points} points")
 }
 
-/// The size of a cause that fits best.
+/// Returns the best-fitting size of a cause.
 pub fn size(cause: &Cause) -> String {
     let deg = |value: f64| format!("{}°", format::signed(value, 2));
     match cause {
@@ -208,7 +208,7 @@ pub fn size(cause: &Cause) -> String {
     }
 }
 
-/// Causes that act together, with their sizes.
+/// Describes causes that act together, with their sizes.
 pub fn causes(explanation: &Explanation) -> String {
     combined(explanation.causes().map(cause_with_size))
 }
@@ -223,7 +223,7 @@ fn cause_with_size(one: &Cause) -> String {
     }
 }
 
-/// A cause as the subject of a sentence.
+/// Returns a cause as the subject of a sentence.
 fn cause_as_subject(cause: &Cause) -> String {
     let deg = |value: f64| format!("{}°", format::signed(value, 2));
     match cause {
@@ -271,7 +271,7 @@ fn axis_as_subject(axis: Axis) -> &'static str {
     }
 }
 
-/// Causes that act together.
+/// Joins causes that act together.
 fn combined(causes: impl Iterator<Item = String>) -> String {
     let mut whole = String::new();
     for cause in causes {
@@ -285,7 +285,8 @@ fn combined(causes: impl Iterator<Item = String>) -> String {
     whole
 }
 
-/// The begin of a sentence as it reads inside of one. The letter of an axis stays a capital.
+/// Returns the begin of a sentence in the form for the middle of one. The letter of an axis stays a
+/// capital.
 fn inside_sentence(words: &str) -> String {
     let mut letters = words.chars();
     let first = letters.next();
@@ -296,7 +297,7 @@ fn inside_sentence(words: &str) -> String {
     }
 }
 
-/// Share of the error that these causes explain, after them.
+/// Returns the share of the error that these causes explain, as words after the causes.
 fn explains(explanation: &Explanation) -> String {
     let share = whole_share(explanation.share);
     if explanation.partner.is_some() {
@@ -306,7 +307,7 @@ fn explains(explanation: &Explanation) -> String {
     }
 }
 
-/// The cause of the error of a pass under way; `None` without one.
+/// Describes the cause of the error of a current pass; `None` without a cause.
 pub fn explained(explained: &Explained, now: Timestamp) -> Option<String> {
     let error = format::degrees(explained.error_deg, 2);
     match &explained.causes[..] {
@@ -319,7 +320,7 @@ pub fn explained(explained: &Explained, now: Timestamp) -> Option<String> {
     }
 }
 
-/// Causes that the positions do not tell apart.
+/// Lists causes that the positions cannot distinguish.
 fn one_of(alike: &[Explanation]) -> String {
     let mut names: Vec<String> =
         alike.iter().map(|explanation| inside_sentence(&names(explanation))).collect();
@@ -327,7 +328,7 @@ fn one_of(alike: &[Explanation]) -> String {
     if names.is_empty() { last } else { format!("{} or {last}", names.join(", ")) }
 }
 
-/// A cause of a pass under way as the subject of a sentence.
+/// Returns a cause of a current pass as the subject of a sentence.
 fn cause_now(cause: &Cause, now: Timestamp) -> String {
     let deg = |value: f64| format!("{}°", format::signed(value, 2));
     match cause {
@@ -352,7 +353,8 @@ fn cause_now(cause: &Cause, now: Timestamp) -> String {
     }
 }
 
-/// The report in one line: how much, the worst, what explains it, and what else was lost.
+/// Returns the report in one line: the share within the beam, the worst error, its cause, and other
+/// losses.
 pub fn verdict_sentence(pass: &RecordedReport, now: Timestamp) -> String {
     let report = &pass.report;
     let Some(worst) = &report.worst else {
@@ -415,12 +417,12 @@ fn loss_in_sentence(cause: LossCause) -> &'static str {
     }
 }
 
-/// The share that a cause explains, without a decimal.
+/// Formats the share that a cause explains, without decimals.
 pub fn whole_share(share: f64) -> String {
     format!("{} %", format::number((share * 100.0).floor(), 0))
 }
 
-/// Effect of taking a correction over. `is_best`: of the best explanation.
+/// Describes the effect of accepting a correction. `is_best` is `true` for the best explanation.
 pub fn correction(method: &CorrectionMethod, is_best: bool) -> String {
     let key = if is_best { " (C)" } else { "" };
     match method {
@@ -443,7 +445,7 @@ pub fn correction(method: &CorrectionMethod, is_best: bool) -> String {
     }
 }
 
-/// Why nothing can be taken over for the best explanation, if there is one.
+/// Returns the reason why there is no correction for the best explanation.
 pub fn no_correction(best: Option<&Explanation>) -> String {
     best.map_or("Nothing to apply: the error of this pass is not explained.".to_owned(), |best| {
         let cause = names(best);
@@ -451,7 +453,8 @@ pub fn no_correction(best: Option<&Explanation>) -> String {
     })
 }
 
-/// Explanation of this pass and those before it together; `None` where it is the only one.
+/// Describes the explanation of this pass together with earlier ones; `None` if there are no
+/// earlier passes.
 pub fn explained_together(explained: &ExplainedPasses, pass: &RecordedPass) -> Option<String> {
     let start_text =
         explained.start.map(|start| format!(" from {}", format::date(start))).unwrap_or_default();
@@ -470,7 +473,7 @@ pub fn explained_together(explained: &ExplainedPasses, pass: &RecordedPass) -> O
     (explained.passes > 1).then(|| format!("{last}: {causes}; {explains} of their error.{open}"))
 }
 
-/// Why the table of causes of a pass is empty.
+/// Returns the reason why the table of causes of a pass is empty.
 pub fn not_explained(opened: &OpenedPass) -> &'static str {
     if opened.pass.report.report.verdict == PassVerdict::Good {
         return "A good pass: there is nothing to explain";
@@ -478,7 +481,7 @@ pub fn not_explained(opened: &OpenedPass) -> &'static str {
     none_explains(!opened.track.is_empty())
 }
 
-/// No cause was found.
+/// Returns the sentence for a pass without any known cause.
 pub fn none_explains(is_measured: bool) -> &'static str {
     if is_measured {
         "Not explained: no single cause or pair leaves only noise"
@@ -487,7 +490,7 @@ pub fn none_explains(is_measured: bool) -> &'static str {
     }
 }
 
-/// The names of causes that act together.
+/// Joins the names of causes that act together.
 fn names(explanation: &Explanation) -> String {
     combined(explanation.causes().map(|one| cause(one).to_owned()))
 }
@@ -504,7 +507,7 @@ fn names_alike(explanations: &[Explanation]) -> Vec<String> {
     sentences
 }
 
-/// Causes that the data cannot tell apart, as a sentence; `None` where the best cause stands alone.
+/// Describes causes that the data cannot distinguish, as a sentence; `None` if there is only one.
 pub fn alike(explanations: &[Explanation]) -> Option<String> {
     let sentences = names_alike(explanations);
     let alike = || explanations.iter().flat_map(Explanation::causes);
@@ -524,7 +527,7 @@ pub fn alike(explanations: &[Explanation]) -> Option<String> {
     })
 }
 
-/// Words after the best explanation where these data leave others open, else nothing.
+/// Returns words for other possible explanations, to append to the best one; empty without others.
 fn or_alike(explanations: &[Explanation]) -> String {
     let others = names_alike(explanations).into_iter().skip(1);
     let others: Vec<String> = others.map(|name| inside_sentence(&name)).collect();

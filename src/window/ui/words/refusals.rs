@@ -8,17 +8,17 @@ use crate::{
     ui::format,
 };
 
-/// Text of the button that starts an action whose end only the unit knows.
+/// Label of the hold button for an action whose end only the unit knows.
 pub const HOLD_UNSEEN: &str = "Hold 1 s to start it without knowing where it ends";
-/// Text of the button that allows moving an antenna out of a forbidden zone.
+/// Label of the hold button that allows moving an antenna out of a forbidden zone.
 pub const HOLD_WAY_OUT: &str = "Hold 1 s to move out by hand";
 /// Label of the hold button that permits a motion by hand while the angle of an axis is unknown.
 pub const HOLD_UNCHECKED: &str = "Hold 1 s to move unchecked";
-/// Text of the button that allows motion without a dead-man.
+/// Label of the hold button that allows motion without a dead-man timer.
 pub const HOLD_UNGUARDED: &str = "Hold 1 s to move without the dead-man timer";
 
-/// The reason why a motion was not sent.
-// One arm a kind.
+/// Returns the reason why a motion was not sent.
+// The match has one arm for each kind.
 #[allow(clippy::too_many_lines)]
 pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
     match refusal {
@@ -174,7 +174,7 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
     }
 }
 
-/// The reason why a motion that nobody has asked for yet would not be sent.
+/// Returns the reason why Azel would refuse a motion that nobody has requested yet.
 pub fn not_possible(refusal: &Refusal, now: Timestamp) -> String {
     let words = self::refusal(refusal, now);
     match words.strip_prefix("Not sent: ") {
@@ -183,12 +183,12 @@ pub fn not_possible(refusal: &Refusal, now: Timestamp) -> String {
     }
 }
 
-/// The reason why a setting that affects pointing must wait, and what to do.
+/// Returns the reason why a setting that affects pointing must wait, and the remedy.
 pub fn hindrance(hindrance: Hindrance) -> String {
     super::sentence(&hindrance.to_string())
 }
 
-/// The reason why a target is not tracked, or no longer.
+/// Returns the reason why a target is not tracked, or no longer tracked.
 pub fn track_problem(problem: &TrackProblem, now: Timestamp) -> String {
     match problem {
         TrackProblem::NoPass => "it does not rise in the next days.".to_owned(),
@@ -203,7 +203,7 @@ pub fn track_problem(problem: &TrackProblem, now: Timestamp) -> String {
     }
 }
 
-/// The reason why a link is lost.
+/// Returns the reason why a link is lost.
 pub fn link_loss(loss: &LinkLoss) -> String {
     match loss {
         LinkLoss::Refused(reason) => format!("the connection was not made ({reason})"),
@@ -219,7 +219,7 @@ pub fn link_loss(loss: &LinkLoss) -> String {
     }
 }
 
-/// The reason why a satellite is not on the unit.
+/// Returns the reason why a satellite is not on the unit.
 pub fn prepare_error(error: &PrepareError) -> String {
     match error {
         PrepareError::CannotBeSent(reason) => format!("it cannot be sent: {reason}"),

@@ -1,4 +1,4 @@
-//! Words for what became of the passes of a rehearsal.
+//! Words for the outcome of passes in a rehearsal.
 
 use jiff::Timestamp;
 
@@ -8,7 +8,7 @@ use crate::{
     plan::pass_report::PassVerdict, ui::format,
 };
 
-/// Outcome of a pass, and its losses, in sentences.
+/// Describes the outcome of a pass and its losses, in sentences.
 pub fn outcome(pass: &RehearsedPass, now: Timestamp) -> String {
     if pass.is_given_up {
         return "A newer plan left it out.".to_owned();
@@ -29,7 +29,7 @@ pub fn outcome(pass: &RehearsedPass, now: Timestamp) -> String {
     sentences.join(" ")
 }
 
-/// Result of the last rehearsal; `None` without one.
+/// Returns the result of the last rehearsal; `None` without one.
 pub fn in_short(rehearsal_state: &RehearsalState, now: Timestamp) -> Option<String> {
     match rehearsal_state {
         RehearsalState::None => None,
@@ -47,13 +47,13 @@ pub fn in_short(rehearsal_state: &RehearsalState, now: Timestamp) -> Option<Stri
     }
 }
 
-/// Time that a pass got, and the promised time, for a row.
+/// Returns the achieved and the promised time of a pass, for a row.
 pub fn beside_promise(pass: &RehearsedPass) -> String {
     let [reached, promised] = [pass.got_s(), pass.promised_s].map(format::duration);
     format!("{reached} of {promised}")
 }
 
-/// Verdict on a pass, in a word.
+/// Returns the verdict on a pass, in a word.
 pub fn verdict(pass: &RehearsedPass) -> &'static str {
     match &pass.report {
         Some(report) => report.report.verdict.word(),

@@ -14,7 +14,7 @@ use crate::{
     ui::format,
 };
 
-/// A barrier as the goal of a motion, such as "too close to the Sun".
+/// Describes a barrier as the goal of a motion, such as "too close to the Sun".
 pub fn forbidden(barrier: &Barrier) -> String {
     match barrier {
         Barrier::MinimumElevation => "below its minimum elevation".to_owned(),
@@ -26,7 +26,7 @@ pub fn forbidden(barrier: &Barrier) -> String {
     }
 }
 
-/// A barrier as the position of an antenna.
+/// Describes a barrier as the position of an antenna.
 pub fn inside_barrier(barrier: &Barrier) -> String {
     match barrier {
         Barrier::KeepOut(name) => format!("inside \u{201c}{name}\u{201d}"),
@@ -34,7 +34,7 @@ pub fn inside_barrier(barrier: &Barrier) -> String {
     }
 }
 
-/// Why an antenna that is, or may be, inside a barrier stands.
+/// Returns the reason why an antenna inside a barrier, or possibly inside, does not move.
 pub fn kept_still(antenna: &str, Breach { barrier, unknown_axis, .. }: &Breach) -> String {
     if let Barrier::Unread(setting) = barrier {
         return format!(
@@ -51,8 +51,8 @@ pub fn kept_still(antenna: &str, Breach { barrier, unknown_axis, .. }: &Breach) 
     }
 }
 
-/// The motions allowed to an antenna that is, or may be, inside a barrier; `may_leave`: the
-/// operator has allowed them.
+/// Describes the motions allowed to an antenna that is, or may be, inside a barrier. `may_leave` is
+/// `true` if the operator has allowed them.
 pub fn way_out(antenna: &str, Breach { barrier, unknown_axis, may_leave }: &Breach) -> String {
     if let Barrier::Unread(setting) = barrier {
         let unread = format!(
@@ -92,7 +92,7 @@ pub fn way_out(antenna: &str, Breach { barrier, unknown_axis, may_leave }: &Brea
     }
 }
 
-/// The consequence of following the Sun with `antenna` under Sun avoidance of `radius_deg`.
+/// Returns the consequence of following the Sun with `antenna` under Sun avoidance of `radius_deg`.
 pub fn sun_lifted(antenna: &str, radius_deg: f64) -> String {
     format!(
         "The Sun avoidance keeps {antenna} {} away from the Sun. The hold lifts it for this track \
@@ -101,12 +101,11 @@ pub fn sun_lifted(antenna: &str, radius_deg: f64) -> String {
     )
 }
 
-/// The note while the Sun is followed.
+/// Note while an antenna follows the Sun.
 pub const SUN_IS_LIFTED: &str =
     "You have lifted the Sun avoidance for this track alone. STOP ends both.";
 
-/// The operator's reason for a keep-out, to append to a sentence about it; empty if there is
-/// none.
+/// Returns the operator's reason for a keep-out, to append to a sentence; empty without a reason.
 pub fn reason(barrier: &Barrier, station: &Station) -> String {
     let Barrier::KeepOut(name) = barrier else { return String::new() };
     let keep_out = station.keep_outs.iter().find(|zone| zone.name == name.as_str());
@@ -117,7 +116,7 @@ pub fn reason(barrier: &Barrier, station: &Station) -> String {
     format!(" \u{201c}{name}\u{201d}: {reason}.")
 }
 
-/// The overrun of an antenna, and the source of that value.
+/// Describes the overrun of an antenna, and the source of that value.
 pub fn stopping_way(StoppingWay { overrun_s, stops, is_learned }: StoppingWay) -> String {
     let overrun = format!("Coasts for {} s", format::number(overrun_s, 1));
     let enough = StoppingWay::ENOUGH;
@@ -129,7 +128,7 @@ pub fn stopping_way(StoppingWay { overrun_s, stops, is_learned }: StoppingWay) -
     )
 }
 
-/// The properties of a drive that Azel has learned from its motions, and those still to be learned.
+/// Describes the learned properties of a drive, and the properties still to learn.
 pub fn drive(lessons: &AxisLessons) -> String {
     let properties = [
         (
@@ -175,7 +174,7 @@ pub fn drive(lessons: &AxisLessons) -> String {
 pub const UNGUARDED: &str = "The dead-man timer could not be started: if Azel ended while the \
      key is held, nothing would stop the antenna.";
 
-/// The reason for asking the operator to confirm that the antenna stands still.
+/// Returns the reason for asking the operator to confirm that the antenna stands still.
 pub fn asks_standing(snapshot: &Snapshot, now: Timestamp) -> Option<String> {
     if let StopState::NotConfirmed { .. } = snapshot.stop {
         let reason = "STOP is repeated until the antenna is known to be at rest. Look at it before \
@@ -186,7 +185,7 @@ pub fn asks_standing(snapshot: &Snapshot, now: Timestamp) -> Option<String> {
     Some(format!("{ended} while the antenna was moved. Look at it before you confirm."))
 }
 
-/// The end of an earlier run. Its record may be damaged.
+/// Describes the end of an earlier run of Azel. The record of that run may be damaged.
 fn ended_at(start: Option<Timestamp>, now: Timestamp) -> String {
     start.map_or_else(
         || "Azel ended at an unknown time".to_owned(),
@@ -194,7 +193,7 @@ fn ended_at(start: Option<Timestamp>, now: Timestamp) -> String {
     )
 }
 
-/// The sentence about a STOP owed to a unit that belongs to no antenna any more.
+/// Returns the sentence about an owed STOP of a unit that no longer belongs to an antenna.
 pub fn owed(unit: &Unit) -> String {
     format!(
         "{} may still move: STOP is not confirmed, and no antenna of this station uses this unit. \
@@ -203,7 +202,7 @@ pub fn owed(unit: &Unit) -> String {
     )
 }
 
-/// The sentence about auto-track of a unit that belongs to no antenna any more.
+/// Returns the sentence about auto-track of a unit that no longer belongs to an antenna.
 pub fn auto_track_owed(unit: &Unit) -> String {
     format!(
         "{} may still track by itself. No antenna of this station uses this unit any more. Azel \
@@ -212,7 +211,7 @@ pub fn auto_track_owed(unit: &Unit) -> String {
     )
 }
 
-/// The sentence about offsets on a unit that belongs to no antenna any more.
+/// Returns the sentence about offsets on a unit that no longer belongs to an antenna.
 pub fn offsets_owed(unit: &Unit) -> String {
     format!(
         "{} may still add offsets that were written for a pass. No antenna of this station uses this \
@@ -229,7 +228,7 @@ fn at_its_address(Unit { make, address }: &Unit) -> String {
     )
 }
 
-/// The difference of a unit from its earlier state, as a sentence after a blank.
+/// Returns the difference of a unit from its earlier state, as a sentence after a blank.
 fn unlike(unlike: Unlike) -> &'static str {
     match unlike {
         Unlike::Identity => {
@@ -244,8 +243,8 @@ fn unlike(unlike: Unlike) -> &'static str {
     }
 }
 
-/// A motion that Azel did not command. Only a jog proves that somebody made it; an angle does not tell
-/// a hand from wind or a drive.
+/// Describes a motion that Azel did not command. Only a jog proves that a person caused it; an
+/// angle does not distinguish a person from wind or a drive.
 fn foreign_hands(antenna: &str, axis: &str, evidence: Evidence) -> String {
     let moved = match evidence {
         Evidence::Outside { off_deg } => format!(
@@ -268,7 +267,7 @@ fn foreign_hands(antenna: &str, axis: &str, evidence: Evidence) -> String {
     )
 }
 
-/// A matter of safety in words; `antenna` is the name of the antenna.
+/// Describes a safety event; `antenna` is the name of the antenna.
 pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
     match matter {
         Safety::DeadManFired => format!(

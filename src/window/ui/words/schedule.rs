@@ -1,4 +1,4 @@
-//! Words for the schedule: why passes are left out, and what a swap costs.
+//! Words for the schedule: reasons why passes are left out, and the cost of a swap.
 
 use jiff::Timestamp;
 
@@ -19,7 +19,7 @@ use crate::{
     ui::format,
 };
 
-/// The rule of what is best, as a choice.
+/// Names a rule for the best schedule, as a choice.
 pub fn choose_by(rule: ChooseBy) -> &'static str {
     match rule {
         ChooseBy::Elevation => "Priority, then elevation",
@@ -29,7 +29,8 @@ pub fn choose_by(rule: ChooseBy) -> &'static str {
     }
 }
 
-/// Time that the mount loses of a pass, and the place, as a sentence without a full stop.
+/// Describes the time that the mount loses in a pass, and the place, as a sentence without a full
+/// stop.
 pub fn lost(lost: Lost) -> String {
     let seconds = format::duration(lost.seconds);
     match lost.loss {
@@ -45,15 +46,15 @@ pub fn lost(lost: Lost) -> String {
     }
 }
 
-/// Names in the reasons why passes are left out.
+/// Functions for the names in the reasons why passes are left out.
 #[derive(Clone, Copy)]
 pub struct Names<'a> {
-    /// The satellite of a pass.
+    /// Function that names the satellite of a pass.
     pub pass: &'a dyn Fn(PassListKey) -> String,
     pub antenna: &'a dyn Fn(AntennaId) -> String,
 }
 
-/// Why a pass is left out, as a sentence without a full stop.
+/// Returns the reason why a pass is left out, as a sentence without a full stop.
 pub fn left_out_reason(names: Names<'_>, reason: &LeftOutReason) -> String {
     match reason {
         LeftOutReason::Refused(refusal) => refused(*refusal),
@@ -146,13 +147,13 @@ fn conflict_words(names: Names<'_>, conflict: &Conflict) -> String {
     }
 }
 
-/// Why a pass is left out, with the names that the window shows.
+/// Returns the reason why a pass is left out, with the names that the window shows.
 pub fn why_left_out(model: &Model, reason: &LeftOutReason) -> String {
     let antenna = |id| antenna_name(model, id).to_owned();
     left_out_reason(Names { pass: &|pass| pass_name(model, pass), antenna: &antenna }, reason)
 }
 
-/// How a pass stands on an antenna of this name: the end of a sentence.
+/// Describes the status of a pass on an antenna of this name, as the end of a sentence.
 pub fn standing(model: &Model, standing: Standing<'_>, antenna: &str) -> String {
     match standing {
         Standing::Flown(flown) => super::automatic::flown_part(flown),
@@ -166,7 +167,7 @@ pub fn standing(model: &Model, standing: Standing<'_>, antenna: &str) -> String 
     }
 }
 
-/// Activity of an antenna by the schedule: a participle.
+/// Describes the planned activity of an antenna, as a participle.
 pub fn doing(model: &Model, doing: PlannedActivity) -> String {
     match doing {
         PlannedActivity::Tracks(pass) => format!("tracking {}", pass_name(model, pass)),
@@ -178,18 +179,18 @@ pub fn doing(model: &Model, doing: PlannedActivity) -> String {
     }
 }
 
-/// Short name of the satellite of a pass.
+/// Returns the short name of the satellite of a pass.
 pub fn pass_name(model: &Model, pass: PassListKey) -> String {
     satellite_name(model, pass.0)
 }
 
-/// Short name of a satellite, or its catalog number where no pass of it is known.
+/// Returns the short name of a satellite, or its catalog number if no pass of it is known.
 pub fn satellite_name(model: &Model, number: u32) -> String {
     let found = model.pass_lists.satellite(number);
     found.map_or_else(|| number.to_string(), |listed| listed.short_name().to_owned())
 }
 
-/// Cost of taking a pass, as a sentence.
+/// Describes the cost of taking a pass, as a sentence.
 pub fn price(model: &Model, swap: &Swap) -> String {
     let Some(changes) = &swap.changes else {
         return "It cannot be taken.".to_owned();
@@ -204,7 +205,7 @@ pub fn price(model: &Model, swap: &Swap) -> String {
     }
 }
 
-/// A change of the schedule, as a sentence without a full stop.
+/// Describes a change of the schedule, as a sentence without a full stop.
 pub fn change(model: &Model, change: &Change) -> String {
     let key = (change.pass.satellite, change.pass.aos);
     let name = format!("{}, {}", pass_name(model, key), format::moment(key.1, model.now));
@@ -232,13 +233,12 @@ pub fn change(model: &Model, change: &Change) -> String {
     }
 }
 
-/// Known quality of a schedule, in a few words.
+/// Describes the known quality of a schedule, in a few words.
 pub fn proof(schedule: &Schedule) -> String {
     unproved(schedule).unwrap_or_else(|| "No better plan exists.".to_owned())
 }
 
-/// Greatest possible gain of a better schedule, by class; `None` where all classes are proved to be
-/// the best.
+/// Describes the max possible gain of a better schedule, by class; `None` if no class can gain.
 pub fn unproved(schedule: &Schedule) -> Option<String> {
     let classes = schedule.worth.iter().filter_map(|class| match class.proof {
         Proof::AtMost(bound) => {
@@ -262,7 +262,7 @@ fn class_name(class: Class) -> String {
     }
 }
 
-/// The worth of a class and its proof, as a sentence.
+/// Returns the worth of a class and its proof, as a sentence.
 pub fn class_worth(class: &ClassWorth, choose_by: ChooseBy) -> String {
     let number = |worth: i64| match choose_by {
         ChooseBy::MostPasses => format::number(worth as f64, 0),
@@ -277,12 +277,12 @@ pub fn class_worth(class: &ClassWorth, choose_by: ChooseBy) -> String {
     format!("{}: {}, {proof}.", class_name(class.class), number(class.worth))
 }
 
-/// Name of an antenna.
+/// Returns the name of an antenna.
 pub fn antenna_name(model: &Model, antenna: AntennaId) -> &str {
     model.antenna_of(antenna).map_or("an antenna", |antenna| &antenna.config.name)
 }
 
-/// When an antenna is sent to a pass, in words such as "Loads 12:32:50Z".
+/// Words the time at which an antenna starts towards a pass, such as "Loads 12:32:50Z".
 pub fn sets_out(antenna: &AntennaModel, time: Timestamp, now: Timestamp) -> String {
     let word = if antenna.variant().capabilities.has_program { "Loads" } else { "Sets out" };
     format!("{word} {}", format::moment(time, now))

@@ -1,4 +1,4 @@
-//! The place of a station: what tells a wrong one.
+//! Words for the location of a station, to detect a wrong one.
 
 use crate::{
     astro::AzEl,
@@ -6,10 +6,10 @@ use crate::{
     ui::{format, widgets::status_line::Tone},
 };
 
-/// Distance from which a typed place differs from a unit's by more than its receiver does.
+/// Distance from the position of a unit below which an entered site agrees, km.
 const AGREES_KM: f64 = 1.0;
 
-/// The place of the Sun, by which a wrong sign is seen at once.
+/// Describes the direction of the Sun, which reveals a wrong sign of a coordinate.
 pub fn sun_there(sun: AzEl) -> String {
     let (azimuth_deg, elevation_deg) = (sun.azimuth_deg(), sun.elevation_deg());
     let elevation = format::degrees(elevation_deg.abs(), 0);
@@ -30,7 +30,7 @@ fn compass_point(azimuth_deg: f64) -> &'static str {
     POINTS.get(nearest).copied().unwrap_or_default()
 }
 
-/// How far a typed place is from the one that a unit told.
+/// Describes the distance between an entered site and the position that a unit reported.
 pub fn off_the_told(name: &str, km: f64, unit: DistanceUnit) -> (Tone, String) {
     let far = format::distance(km, usize::from(km < 10.0), unit);
     if km < AGREES_KM {

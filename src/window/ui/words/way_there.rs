@@ -1,22 +1,22 @@
-//! Words for the way of an antenna to a pass under way, or about to begin.
+//! Words for the slew of an antenna to a current pass, or to one about to begin.
 
 use crate::{plan::schedule::Joining, ui::format};
 
-/// The time that an antenna which sets out at once needs, its set-up included.
+/// Returns the time that an antenna needs if it starts now, including its set-up.
 pub fn needs(joining: Joining) -> String {
     format!("needs {} to get there", format::duration(joining.needs_s))
 }
 
-/// Part of a pass that is left for an antenna which sets out at once.
+/// Remaining part of a pass for an antenna that starts now.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WayThere {
-    /// `None` if nothing is left of the pass.
+    /// Slew to the pass; `None` if no part of the pass remains.
     pub joining: Option<Joining>,
 }
 
 impl WayThere {
-    /// The rest of a sentence about the antenna, such as "needs 0:37 to get there, leaving 2:05 to
-    /// track".
+    /// Returns the rest of a sentence about the antenna, such as "needs 0:37 to get there, leaving
+    /// 2:05 to track".
     pub fn words(self) -> String {
         let Some(joining) = self.joining else {
             return "is not there before LOS".to_owned();
@@ -24,7 +24,7 @@ impl WayThere {
         format!("{}, leaving {} to track", needs(joining), format::duration(joining.left_s))
     }
 
-    /// [`Self::words`] where they have no room.
+    /// Returns a shorter form of [`Self::words`].
     pub fn short(self) -> String {
         match self.joining {
             Some(joining) => format!("{} trackable", format::duration(joining.left_s)),

@@ -1,4 +1,4 @@
-//! How much of the next passes an antenna tracks, as saved and as edited.
+//! Share of the next passes that an antenna tracks, with the saved and the edited settings.
 
 use std::cmp::Ordering;
 
@@ -14,12 +14,12 @@ use crate::{
 
 const EACH_ALONE: &str = "Each pass is judged alone: slews between passes belong to the Plan.";
 
-/// The most important number, for a fold.
+/// Returns the most important number, for a fold.
 pub(super) fn in_short(effect: &Effect<Question>) -> String {
     format!("{} of {} passes tracked in full", effect.after.whole, effect.ways.len())
 }
 
-/// Shows the numbers. An antenna that is new has none as saved.
+/// Shows the numbers. A new antenna has no saved numbers.
 pub(super) fn numbers(ui: &mut Ui, effect: Option<&Effect<Question>>, is_new: bool) {
     let t = theme::tokens(ui);
     ui.label(RichText::new("Favourites, next 48 h").font(text::body_medium()).color(t.t1));
@@ -48,7 +48,7 @@ pub(super) fn numbers(ui: &mut Ui, effect: Option<&Effect<Question>>, is_new: bo
     }
 }
 
-/// Says in a sentence what changes.
+/// Shows the change as a sentence.
 pub(super) fn words(ui: &mut Ui, effect: &Effect<Question>, is_new: bool) {
     let t = theme::tokens(ui);
     let words = RichText::new(sentence(effect, is_new)).font(text::body()).color(t.t1);

@@ -1,5 +1,5 @@
-//! Peaks of the noise of the Sun and the Moon, entered by hand: points for the fit of a pointing
-//! model.
+//! Peaks of the noise of the Sun and the Moon, entered by hand. They are points for the fit of a
+//! pointing model.
 
 use egui::{Label, Response, RichText, TextEdit, Ui};
 use jiff::Timestamp;
@@ -17,7 +17,7 @@ use crate::{
     },
 };
 
-/// A peak further from the Sun or the Moon than this has a typing error, degrees.
+/// Distance from the Sun or the Moon above which a peak must be a typing error, degrees.
 const FAR_DEG: f64 = 20.0;
 const TIME: f32 = 172.0;
 const ANGLE: f32 = 72.0;
@@ -39,8 +39,8 @@ impl Default for TypedPeak {
 }
 
 impl TypedPeak {
-    /// Returns the peak, with the current time and angles for empty fields; or the reason why there
-    /// is none.
+    /// Returns the peak, with the current time and angles for empty fields, or the reason why a
+    /// field is invalid.
     fn read(&self, now: Timestamp, measured: Option<[f64; 2]>) -> Result<Peak, String> {
         let time = match self.time_text.trim() {
             "" => now,
@@ -51,7 +51,7 @@ impl TypedPeak {
         if time > now {
             return Err("This time is yet to come.".to_owned());
         }
-        // The measured angles are valid only for now.
+        // The measured angles apply only to the current time.
         let [azimuth, elevation] = measured
             .filter(|_| self.time_text.trim().is_empty())
             .map_or([None; 2], |[azimuth, elevation]| [Some(azimuth), Some(elevation)]);
@@ -84,7 +84,7 @@ fn angle(
     })
 }
 
-/// Shows the peaks of an antenna, and the fields for one more.
+/// Shows the peaks of an antenna, and the fields for a new peak.
 pub(super) fn show(
     ui: &mut Ui,
     model: &Model,
@@ -157,7 +157,7 @@ pub(super) fn show(
     }
 }
 
-/// A button whose tooltip is the reason why it is locked.
+/// Adds a tooltip with the reason to a locked button.
 fn with_reason(button: Response, lock: Option<&'static str>) -> Response {
     match lock {
         Some(reason) => button.on_disabled_hover_text(reason),
@@ -165,7 +165,7 @@ fn with_reason(button: Response, lock: Option<&'static str>) -> Response {
     }
 }
 
-/// Angles that the axes of the antenna measure now, degrees.
+/// Returns the angles that the axes of the antenna measure now, degrees.
 fn measured(model: &Model, id: AntennaId) -> Option<[f64; 2]> {
     let antenna = model.antenna_of(id).filter(|antenna| antenna.is_live())?;
     let pointing = antenna.snapshot.state.measured?.pointing;
@@ -179,7 +179,7 @@ fn in_words(peak: &Peak, model: &Model) -> String {
     format!("{name}, {time_text}: az {azimuth}, el {elevation}")
 }
 
-/// Says that a peak is far from where the Sun or the Moon was.
+/// Returns a warning if a peak is far from the position of the Sun or the Moon.
 fn far(peak: &Peak, model: &Model) -> Option<String> {
     let point = peak.point(model.station.site);
     let off_deg = point.direction.separation(point.measured).degrees();

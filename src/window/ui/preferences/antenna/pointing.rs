@@ -1,4 +1,5 @@
-//! The pointing model that fits the record of the antenna, to be filled into the fields.
+//! The pointing model that fits the record of the antenna. The operator can copy it into the
+//! fields.
 
 use egui::{Grid, Label, RichText, Ui};
 
@@ -19,12 +20,12 @@ use crate::{
     },
 };
 
-/// Least width of a column.
+/// Min width of a column, points.
 const NUMBER: f32 = 80.0;
 const UNCERTAIN: &str = "Some terms may as well be zero. Passes at other elevations and azimuths settle them: \
      a model with such terms points worse there.";
 
-/// Shows the fit below the fields of the model. Nothing of it is used before it is saved.
+/// Shows the fit below the fields of the model. Nothing takes effect before the operator saves it.
 pub(super) fn show(
     ui: &mut Ui,
     model: &Model,
@@ -66,10 +67,10 @@ fn fit_without(id: AntennaId, terms: Vec<Term>) -> UiCommand {
     UiCommand::Station(contract::Command::FitPointing(id, terms))
 }
 
-/// Request of the operator concerning a fit.
+/// A request of the operator about a fit.
 enum Wish {
     FillIn,
-    /// The same without these terms.
+    /// A fit of the same peaks without these terms.
     FitWithout(Vec<Term>),
 }
 
@@ -147,14 +148,16 @@ fn terms(ui: &mut Ui, antenna: &Antenna, fit: &PointingFit, can_fit: bool) -> Op
     .inner
 }
 
-/// The terms to leave out so that none is left that may be zero, if there is one.
+/// Returns the terms to exclude so that no remaining term may be zero; `None` if no term may be
+/// zero.
 fn without_term(fit: &PointingFit) -> Option<Vec<Term>> {
     let zero: Vec<Term> =
         fit.terms.iter().filter(|fitted| may_be_zero(fitted)).map(|fitted| fitted.term).collect();
     (!zero.is_empty()).then(|| [&fit.excluded[..], &zero].concat())
 }
 
-/// The terms of such a fit may have errors that cancel each other in these passes alone.
+/// Returns `true` if a term may be zero. The errors of such terms may cancel each other only in
+/// these passes.
 fn may_be_zero(fitted: &FittedTerm) -> bool {
     fitted.value.zip(fitted.half_of_95_percent).is_some_and(|(value, half)| value.abs() < half)
 }
@@ -168,7 +171,8 @@ fn not_told(fitted: &FittedTerm) -> Option<String> {
     Some(format!("{term} cannot be told from {others} in these passes: it is left at 0."))
 }
 
-/// Types the terms into the fields of the model. One that the record cannot tell is zero.
+/// Copies the terms into the fields of the model. A term that the record cannot determine becomes
+/// zero.
 pub(super) fn fill_in(antenna: &mut Typed<Antenna>, fit: &PointingFit) {
     for fitted in &fit.terms {
         let value = fitted.value.unwrap_or_default();
@@ -181,7 +185,7 @@ fn written(term: Term, value: f64) -> String {
     format!("{}{unit}", number(term, value))
 }
 
-/// With the digits that an operator can use.
+/// Formats a value with as many digits as an operator can use.
 fn number(term: Term, value: f64) -> String {
     let digits = if term == Term::ElevationScale { 6 } else { 4 };
     let number = format!("{value:.digits$}");

@@ -1,4 +1,4 @@
-//! The sky that an antenna reaches, with its park position.
+//! The part of the sky that an antenna reaches, with its park position.
 
 use std::f32::consts::TAU;
 
@@ -25,7 +25,7 @@ const STEP_DEG: f64 = 3.0;
 /// Length of the mark at an end of the travel, points.
 const STOP: f32 = 10.0;
 
-/// Shows the plot in a square, with the ends of the travel as saved.
+/// Shows the plot in a square, with the saved ends of the travel.
 pub(super) fn plot(ui: &mut Ui, was: &Antenna, new: &Antenna) {
     let t = theme::tokens(ui);
     let side = Vec2::splat(ui.available_width());
@@ -56,7 +56,7 @@ pub(super) fn plot(ui: &mut Ui, was: &Antenna, new: &Antenna) {
     }
 }
 
-/// Says in words what the plot shows.
+/// Shows the content of the plot in words.
 pub(super) fn words(ui: &mut Ui, antenna: &Antenna) {
     let t = theme::tokens(ui);
     let words = RichText::new(sentence(antenna)).font(text::small()).color(t.t2);
@@ -84,7 +84,7 @@ impl Travel {
         self.azimuth.1 - self.azimuth.0
     }
 
-    /// The part of the disc between the ends of both axes.
+    /// Returns the part of the disc between the ends of both axes.
     fn area(&self, dome: Dome, t: &Tokens) -> Mesh {
         let mut mesh = Mesh::default();
         let span_deg = self.span_deg().clamp(0.0, 360.0);

@@ -1,5 +1,5 @@
-//! Draft of the mask, the keep-outs and the avoidance of the Sun: a typing error loses
-//! nothing, and the plot keeps the last valid value.
+//! Draft of the mask, the keep-outs and the Sun avoidance. A typing error loses nothing, and the
+//! plot keeps the last valid value.
 
 use std::{borrow::Cow, ops::RangeInclusive};
 
@@ -20,13 +20,13 @@ use crate::{
     },
 };
 
-/// Range for the azimuth of a corner: one turn, and one more either way.
+/// Range for the azimuth of a corner, degrees: one turn, and one more in each direction.
 pub(super) const AZIMUTH: RangeInclusive<f64> = -360.0..=720.0;
 
-/// Draft of the whole page.
+/// Draft of the whole horizon page.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::ui::preferences) struct Skies {
-    /// Text of the mask, as [`HorizonMask::import`] reads it; empty for none.
+    /// Text of the mask, as [`HorizonMask::import`] reads it; empty without a mask.
     pub(in crate::ui::preferences) mask: String,
     pub(super) zones: Vec<ZoneDraft>,
     pub(super) sun: SunDraft,
@@ -40,7 +40,7 @@ pub(super) struct ZoneDraft {
     pub(super) entered: Entered,
     pub(super) margin: Cell,
     pub(super) corners: Vec<Corner>,
-    /// Saved keep-out; `None` for a new one.
+    /// The saved keep-out; `None` for a new one.
     was: Option<Box<KeepOut>>,
 }
 
@@ -74,7 +74,7 @@ impl Cell {
         Self { entry: entry(written(value)), saved: value, range }
     }
 
-    /// Last valid value.
+    /// Returns the last valid value.
     pub(super) fn saved(&self) -> f64 {
         self.saved
     }
@@ -84,7 +84,7 @@ impl Cell {
         number(self.entry.text.trim()).filter(|value| (low..=high).contains(value))
     }
 
-    /// Adopts the typed text if it is valid.
+    /// Takes the entered text if it is valid.
     pub(super) fn take(&mut self) {
         self.saved = self.typed().unwrap_or(self.saved);
     }
@@ -96,7 +96,7 @@ impl Cell {
         self.entry.text = written(self.saved);
     }
 
-    /// Problem of the typed text, and the value used instead.
+    /// Returns the problem of the entered text, and the value used instead.
     pub(super) fn problem(&self) -> Option<String> {
         let (low, high) = self.range;
         self.typed().is_none().then(|| {
@@ -105,7 +105,7 @@ impl Cell {
         })
     }
 
-    /// State of the field, with the words beside it.
+    /// Returns the state of the field, and the words next to it.
     pub(super) fn state(&self) -> (Mark, String) {
         standing(self.problem(), self.entry.was())
     }
@@ -115,7 +115,7 @@ impl Cell {
     }
 }
 
-/// With one decimal, or as many as the value has.
+/// Formats a value with one decimal, or with as many as it has.
 fn written(value: f64) -> String {
     let tenths = value * 10.0;
     let is_short = (tenths - tenths.round()).abs() < 1e-9;
@@ -130,7 +130,7 @@ impl Corner {
         }
     }
 
-    /// A new corner.
+    /// Returns a new corner.
     pub(super) fn added(azimuth_deg: f64, elevation_deg: f64) -> Self {
         Self::new((azimuth_deg, elevation_deg), false)
     }
@@ -143,7 +143,7 @@ impl Corner {
         self.azimuth.problem().or_else(|| self.elevation.problem())
     }
 
-    /// State of both fields, with the words beside them.
+    /// Returns the common state of both fields, and the words next to them.
     pub(super) fn state(&self) -> (Mark, String) {
         let entries = [&self.azimuth.entry, &self.elevation.entry];
         let was: Vec<&str> = entries.into_iter().filter_map(Entry::was).collect();
@@ -169,7 +169,7 @@ impl ZoneDraft {
         }
     }
 
-    /// A new keep-out.
+    /// Returns a new keep-out.
     pub(super) fn added(name: String, corners: &[(f64, f64)]) -> Self {
         Self {
             name,
@@ -182,7 +182,7 @@ impl ZoneDraft {
         }
     }
 
-    /// A copy with another name, as a new keep-out.
+    /// Returns a copy with another name, as a new keep-out.
     pub(super) fn copied(&self, name: String) -> Self {
         let corners: Vec<(f64, f64)> = self.corners.iter().map(Corner::point).collect();
         let mut copy = Self::added(name, &corners);
@@ -191,18 +191,18 @@ impl ZoneDraft {
         Self { reason, antenna, entered: self.entered, ..copy }
     }
 
-    /// Corners as plotted.
+    /// Returns the corners as plotted, degrees.
     pub(super) fn corners_deg(&self) -> Vec<(f64, f64)> {
         self.corners.iter().map(Corner::point).collect()
     }
 
-    /// Zone as plotted, or the reason why the corners make none.
+    /// Returns the zone as plotted, or the reason why the corners make no zone.
     pub(super) fn zone(&self) -> Result<Zone, String> {
         KeepOut::zone_of(&self.corners_deg())
             .map_err(|error| words::capitalised(&error.to_string()))
     }
 
-    /// Keep-out as plotted; `None` if the corners make no zone.
+    /// Returns the keep-out as plotted; `None` if the corners make no zone.
     pub(super) fn keep_out(&self) -> Option<KeepOut> {
         Some(KeepOut {
             name: self.name.trim().to_owned(),
@@ -218,7 +218,7 @@ impl ZoneDraft {
         self.was.is_none()
     }
 
-    /// Number of changed values.
+    /// Returns the number of changed values.
     pub(super) fn edits(&self) -> usize {
         let Some(was) = &self.was else { return 1 };
         let removed = KeepOut::corners_deg(&was.zone).len().saturating_sub(self.corners.len());
@@ -244,7 +244,7 @@ impl SunDraft {
         }
     }
 
-    /// Avoidance as plotted.
+    /// Returns the Sun avoidance as plotted; `None` if it is off.
     pub(super) fn saved(&self) -> Option<SunAvoidance> {
         self.is_on
             .then_some(SunAvoidance { radius_deg: self.radius.saved, ahead_min: self.ahead.saved })
@@ -265,7 +265,7 @@ impl Skies {
         }
     }
 
-    /// The mask, or the reason why the text is none.
+    /// Returns the mask, or the reason why the text is not a mask.
     pub(super) fn read_mask(&self) -> Result<Option<HorizonMask>, String> {
         if self.mask.trim().is_empty() {
             return Ok(None);
@@ -274,13 +274,13 @@ impl Skies {
         Ok(Some(mask))
     }
 
-    /// An unused name for a new keep-out.
+    /// Returns an unused name for a new keep-out.
     pub(super) fn free_name(&self, expected: &str) -> String {
         let others: Vec<&str> = self.zones.iter().map(|zone| &*zone.name).collect();
         Antenna::free_name(expected, &others)
     }
 
-    /// Problem that prevents saving a keep-out, apart from its cells.
+    /// Returns the problem that prevents saving a keep-out, apart from its number fields.
     pub(super) fn problem_of(&self, index: usize, antennas: &[String]) -> Option<String> {
         let zone = self.zones.get(index)?;
         if zone.name.trim().is_empty() {
@@ -302,7 +302,7 @@ impl Skies {
         zone.zone().err().map(|reason| format!("{reason}."))
     }
 
-    /// All problems with their places, for the message beside Save.
+    /// Returns all problems with their places, for the message next to Save.
     fn problems(&self, antennas: &[String]) -> Vec<String> {
         let mut problems = Vec::new();
         if self.read_mask().is_err() {
@@ -332,7 +332,7 @@ impl Skies {
         problems
     }
 
-    /// Number of values that differ from `before`.
+    /// Returns the number of values that differ from `before`.
     fn edited(&self, before: &Self) -> usize {
         let removed = before
             .zones
@@ -344,8 +344,8 @@ impl Skies {
             + usize::from(self.sun != before.sun)
     }
 
-    /// Puts the draft into `station` once there are no problems left. `renamed` holds old and
-    /// new names of its antennas.
+    /// Writes the draft into `station` if it has no problems. `renamed` contains old and new names
+    /// of the antennas.
     fn put_renamed_into(&self, station: &mut Station, renamed: &[(String, String)]) -> Option<()> {
         let mut moved = self.clone();
         for zone in &mut moved.zones {
@@ -378,7 +378,7 @@ impl DraftSection for Skies {
         problems.map(|label| Finding { label, problem: Problem::new("is not valid") }).collect()
     }
 
-    /// The items of the page by their names.
+    /// Returns the items of the page by their names.
     fn labels(&self) -> Vec<(Cow<'static, str>, Spot)> {
         let fixed = [("Skyline", Chosen::Skyline), ("Sun avoidance", Chosen::Sun)];
         let zones = self.zones.iter().enumerate();

@@ -8,10 +8,10 @@ use crate::{
     ui::sky_plot::geometry::Dome,
 };
 
-/// Fewest corners of a keep-out.
+/// Min number of corners of a keep-out.
 pub(super) const MIN_CORNERS: usize = crate::astro::MIN_CORNERS;
 
-/// Direction under a point of the plot in degrees, with the azimuth counted nearest to
+/// Returns the direction under a point of the plot in degrees, with the azimuth turn nearest to
 /// `near_deg`. Points outside the rim are on the horizon.
 pub(super) fn position_under(dome: Dome, position: Pos2, near_deg: f64) -> (f64, f64) {
     let offset = position - dome.centre;
@@ -20,19 +20,19 @@ pub(super) fn position_under(dome: Dome, position: Pos2, near_deg: f64) -> (f64,
     (counted_near(azimuth_deg, near_deg), elevation_deg.clamp(0.0, 90.0))
 }
 
-/// The azimuth plus the whole turns that bring it nearest to `near_deg`.
+/// Returns the azimuth plus the whole turns that bring it nearest to `near_deg`, degrees.
 pub(super) fn counted_near(azimuth_deg: f64, near_deg: f64) -> f64 {
     near_deg + Angle::from_degrees(azimuth_deg - near_deg).wrapped_180().degrees()
 }
 
-/// Rounds to half a degree, or to a tenth.
+/// Rounds to half a degree if `is_coarse`, otherwise to a tenth.
 pub(super) fn snapped((azimuth_deg, elevation_deg): (f64, f64), is_coarse: bool) -> (f64, f64) {
     let parts = if is_coarse { 2.0 } else { 10.0 };
     let round = |value: f64| (value * parts).round() / parts;
     (round(azimuth_deg), round(elevation_deg))
 }
 
-/// Keeps the coordinate that changed less at its value in `start`.
+/// Resets the coordinate that changed less to its value in `start`.
 pub(super) fn along_one_axis(start: (f64, f64), end: (f64, f64)) -> (f64, f64) {
     if (end.0 - start.0).abs() >= (end.1 - start.1).abs() {
         (end.0, start.1)
@@ -41,7 +41,7 @@ pub(super) fn along_one_axis(start: (f64, f64), end: (f64, f64)) -> (f64, f64) {
     }
 }
 
-/// Place of a direction in the plot; below the horizon at the rim.
+/// Returns the place of a direction in the plot; a direction below the horizon lies on the rim.
 pub(super) fn place(dome: Dome, (azimuth_deg, elevation_deg): (f64, f64)) -> Pos2 {
     let azimuth = Angle::from_degrees(azimuth_deg).radians() as f32;
     dome.point_at(azimuth, elevation_deg.max(0.0) as f32)
@@ -66,7 +66,7 @@ impl ZoneDraft {
         Some(corner + 1)
     }
 
-    /// Middle of the edge that begins at `corner`, degrees.
+    /// Returns the middle of the edge that begins at `corner`, degrees.
     pub(super) fn middle(&self, corner: usize) -> Option<(f64, f64)> {
         if let Ok(zone) = self.zone() {
             let middle = zone.middle_of_edge(corner)?;
@@ -77,7 +77,7 @@ impl ZoneDraft {
         Some((f64::midpoint(start.0, end.0), f64::midpoint(start.1, end.1)))
     }
 
-    /// Removes a corner if enough remain.
+    /// Removes a corner if enough remain. Returns `true` on success.
     pub(super) fn remove(&mut self, corner: usize) -> bool {
         let can = self.corners.len() > MIN_CORNERS && corner < self.corners.len();
         if can {
@@ -86,8 +86,8 @@ impl ZoneDraft {
         can
     }
 
-    /// Corner after which a new one at `position` belongs: the beginning of the nearest edge in the
-    /// plot.
+    /// Returns the corner after which a new corner at `position` belongs. This is the begin of the
+    /// nearest edge in the plot.
     pub(super) fn nearest_edge(&self, dome: Dome, position: Pos2) -> Option<usize> {
         let places: Vec<Pos2> =
             self.corners.iter().map(|corner| place(dome, corner.point())).collect();
@@ -101,7 +101,7 @@ impl ZoneDraft {
     }
 }
 
-/// Corners of a box between two directions, the shorter way around.
+/// Returns the corners of a box between two directions, the shorter way around.
 pub(super) fn rectangle(start: (f64, f64), end: (f64, f64)) -> Option<[(f64, f64); 4]> {
     let to_azimuth = counted_near(end.0, start.0);
     let (left, right) = (start.0.min(to_azimuth), start.0.max(to_azimuth));
@@ -111,13 +111,13 @@ pub(super) fn rectangle(start: (f64, f64), end: (f64, f64)) -> Option<[(f64, f64
 }
 
 impl Skies {
-    /// Points of the skyline; empty if the text holds no mask.
+    /// Returns the points of the skyline; empty if the text contains no mask.
     pub(super) fn skyline(&self) -> Vec<(f64, f64)> {
         let mask = self.read_mask().ok().flatten();
         mask.map(|mask| mask.points_deg().to_vec()).unwrap_or_default()
     }
 
-    /// Replaces the skyline; returns `false` if the points make none.
+    /// Replaces the skyline. Returns `false` if the points make no valid mask.
     pub(super) fn set_skyline(&mut self, points: Vec<(f64, f64)>) -> bool {
         if points.is_empty() {
             self.mask.clear();
@@ -133,7 +133,8 @@ impl Skies {
         mask.is_ok()
     }
 
-    /// First keep-out around a direction, among those for which `is_shown` holds.
+    /// Returns the index of the first keep-out around a direction, among the keep-outs that
+    /// `is_shown` accepts.
     pub(super) fn zone_at(
         &self,
         direction: AzEl,
@@ -146,7 +147,7 @@ impl Skies {
     }
 }
 
-/// A box in the middle of the south, the initial shape of a keep-out.
+/// Initial corners of a new keep-out, degrees: a box in the middle of the south.
 pub(super) const FIRST_BOX: [(f64, f64); 4] =
     [(170.0, 0.0), (170.0, 20.0), (190.0, 20.0), (190.0, 0.0)];
 

@@ -1,4 +1,4 @@
-//! Effect of the edits on future passes, in two lines.
+//! Words the effect of the edits on the predicted passes, in two lines.
 
 use crate::{
     model::effects::{
@@ -8,7 +8,8 @@ use crate::{
     ui::format,
 };
 
-/// First the effect of the selected keep-out, or of all; then the total, now and as saved.
+/// Returns two lines: the effect of the selected keep-out or of all, and the total as edited and as
+/// saved.
 pub(super) fn lines(effect: &Effect<Question>, zone: Option<&str>) -> [String; 2] {
     let total = effect.ways.len();
     if total == 0 {
@@ -60,7 +61,7 @@ pub(super) fn lines(effect: &Effect<Question>, zone: Option<&str>) -> [String; 2
     [blocks + &impossible, before]
 }
 
-/// Passes that all keep-outs and the skyline block or cut.
+/// Describes the passes that all keep-outs and the skyline block or cut.
 fn in_all(tally: &Tally) -> String {
     let plural = if tally.touched == 1 { "" } else { "es" };
     format!(

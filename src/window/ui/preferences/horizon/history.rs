@@ -1,11 +1,11 @@
-//! Undo and redo.
+//! Undo and redo of edits in the horizon page.
 
 use super::draft::Skies;
 
-/// Maximum number of steps.
+/// Max number of undo steps.
 const MAX: usize = 100;
 
-/// Earlier states, and undone ones.
+/// Earlier states, and undone states.
 #[derive(Default)]
 pub(super) struct History {
     settled: Option<Skies>,
@@ -14,7 +14,7 @@ pub(super) struct History {
 }
 
 impl History {
-    /// Records a state once nothing is being dragged or typed.
+    /// Records a state unless the operator is dragging or typing.
     pub(super) fn settle(&mut self, now: &Skies) {
         if self.settled.as_ref() == Some(now) {
             return;
@@ -40,7 +40,7 @@ impl History {
         }
     }
 
-    /// Goes one undone step forward.
+    /// Redoes one undone step.
     pub(super) fn redo(&mut self, now: &mut Skies) {
         if let Some(next) = self.undone.pop() {
             self.before.push(std::mem::replace(now, next));
@@ -64,7 +64,7 @@ mod tests {
             mask.clone_into(&mut now.mask);
             history.settle(&now);
         }
-        // Not settled yet: it counts as a step all the same.
+        // The last change counts as a step although it is not settled.
         "0 3".clone_into(&mut now.mask);
         for expected in ["0 2", "0 1", "", ""] {
             history.undo(&mut now);

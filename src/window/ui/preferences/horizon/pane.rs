@@ -1,4 +1,4 @@
-//! Table of the barriers, and the form of the selected one.
+//! Table of the barriers, and the form of the selected barrier.
 
 use egui::{
     Align2, Color32, FontId, Frame, Margin, Rect, Role, ScrollArea, Sense, TextEdit, Ui, UiBuilder,
@@ -34,7 +34,7 @@ const PADDING: f32 = 16.0;
 const ROW: f32 = 25.0;
 const FIELD: f32 = 28.0;
 const LABEL: f32 = 112.0;
-/// Right ends of the number columns, from the right edge of the table.
+/// Distances of the right ends of the number columns from the right edge of the table, points.
 const COLUMNS: [f32; 3] = [146.0, 76.0, 0.0];
 const WHOLE_SITE: &str = "Whole site";
 
@@ -47,7 +47,7 @@ pub(super) fn show(
     state: &mut HorizonState,
 ) {
     let inner = rect.shrink2(vec2(PADDING, 0.0)).with_min_y(rect.top() + 8.0);
-    // Leave room for the scroll bar beside the numbers.
+    // The margin leaves room for the scroll bar next to the numbers.
     let (inner, width) = (inner.with_max_x(rect.right() - 2.0), inner.width());
     let builder = UiBuilder::new().id_salt("horizon pane").max_rect(inner);
     ui.scope_builder(builder, |ui| {
@@ -153,7 +153,7 @@ fn dash() -> String {
     "–".to_owned()
 }
 
-/// A selectable row.
+/// Draws a selectable row.
 fn choice(
     ui: &mut Ui,
     cells: [String; 5],
@@ -182,7 +182,7 @@ fn choice(
     }
 }
 
-/// A line with two columns of words and three of numbers.
+/// Draws a line with two columns of words and three of numbers.
 fn line(ui: &Ui, rect: Rect, cells: [(String, Color32); 5], font: &FontId) {
     let [name, kind, numbers @ ..] = cells;
     let half = rect.left() + rect.width() * 0.32;
@@ -196,7 +196,7 @@ fn line(ui: &Ui, rect: Rect, cells: [(String, Color32); 5], font: &FontId) {
     }
 }
 
-/// A labelled row of the form; `field` gets the space behind the label.
+/// Draws a labelled row of the form; `field` gets the space after the label.
 fn labelled(ui: &mut Ui, label: &str, field: impl FnOnce(&mut Ui, Rect)) {
     let t = theme::tokens(ui);
     let rect = row(ui, FIELD + 4.0);
@@ -205,7 +205,7 @@ fn labelled(ui: &mut Ui, label: &str, field: impl FnOnce(&mut Ui, Rect)) {
     field(ui, rect.with_min_x(rect.left() + LABEL).shrink2(vec2(0.0, 3.0)));
 }
 
-/// A number field with the border of its state; adopts the number if it is valid.
+/// Draws a number field with a border for its state, and takes the number if it is valid.
 fn cell(ui: &mut Ui, rect: Rect, name: &str, cell: &mut Cell, t: &Tokens) -> bool {
     let border = cell.state().0.border(t);
     let changed = Input { rect, name, border }.text(ui, &mut cell.entry.text, false);
@@ -215,7 +215,7 @@ fn cell(ui: &mut Ui, rect: Rect, name: &str, cell: &mut Cell, t: &Tokens) -> boo
     changed
 }
 
-/// Parts of the margin, in short and in sentences.
+/// Returns the parts of the margin, in short and in sentences.
 fn margin_sum(antenna: Option<&AntennaModel>, own_deg: f64) -> (String, String) {
     let own = format::degrees(own_deg, 1);
     let Some(antenna) = antenna else { return (format!("°   {own}"), String::new()) };
@@ -413,7 +413,7 @@ fn sun(ui: &mut Ui, skies: &mut Skies) {
     }
 }
 
-/// A text field of many lines in the style of a field.
+/// Draws a multi-line text field in the style of a field.
 pub(super) fn lines(ui: &mut Ui, name: &str, hint: &str, typed: &mut String, is_wrong: bool) {
     let t = theme::tokens(ui);
     let border = if is_wrong { (2.0, t.bad) } else { (1.0, t.edge) };

@@ -1,4 +1,4 @@
-//! Plot of the sky with the skyline and the keep-outs, which the operator draws in it.
+//! The plot of the sky, in which the operator draws the skyline and the keep-outs.
 
 mod draw;
 mod handles;
@@ -21,15 +21,15 @@ use crate::{
     },
 };
 
-/// Side of the square of a corner.
+/// Side of the square of a corner handle, points.
 const HANDLE: f32 = 10.0;
-/// Height of a line of the legend.
+/// Height of a line of the legend, points.
 const ROW: f32 = 17.0;
 
-/// Room above the rim for the names of azimuths.
+/// Room above the rim for the names of azimuths, points.
 const NAMES: f32 = 24.0;
 
-/// Shows the plot and handles the drawing in it.
+/// Shows the plot and handles drawing in it.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -43,13 +43,13 @@ pub(super) fn show(
     let ui = &mut ui.new_child(egui::UiBuilder::new().id_salt("horizon plot").max_rect(rect));
     ui.shrink_clip_rect(rect);
     let t = theme::tokens(ui);
-    // Beside a disc narrower than the plot the hint needs no line of its own.
+    // The hint needs no separate line next to a disc narrower than the plot.
     let hint_height = if rect.width() > rect.height() + 300.0 { 0.0 } else { 24.0 };
     let dome = Dome::fitted(rect.with_min_y(rect.top() + hint_height));
     ui.painter().rect_filled(rect, 0.0, t.bg0);
     let antenna = state.shown(model);
 
-    // For the pointer alone: Tab leads to the points, which the keys move.
+    // The canvas is only for the pointer. Tab leads to the points, which arrow keys move.
     let id = ui.make_persistent_id("canvas");
     let canvas = ui.interact(rect, id, Sense::CLICK | Sense::DRAG);
     let name = "Horizon and keep-outs of the site";
@@ -85,7 +85,8 @@ pub(super) fn show(
         Tool::Rectangle => "Draw from one corner to the other.",
     };
     let line = rect.with_max_y(rect.top() + 32.0).shrink2(vec2(16.0, 0.0));
-    // In a low window the plot reaches up to the line: the hint takes two of them beside its top.
+    // In a low window the plot reaches the line of the hint, so the hint takes two lines next to
+    // the top of the plot.
     let is_beside = dome.centre.y - dome.radius - NAMES < line.bottom();
     if is_beside {
         let position = line.left_top() + vec2(0.0, 8.0);
@@ -99,7 +100,7 @@ pub(super) fn show(
     show_legend(ui, rect, dome, t);
 }
 
-/// A label with a background, kept inside the plot.
+/// Draws a label with a background, kept inside the plot.
 fn label(ui: &Ui, position: Pos2, anchor: Align2, words: &str, colour: egui::Color32, t: &Tokens) {
     let galley = ui.painter().layout_no_wrap(words.to_owned(), text::small(), colour);
     let bounds = anchor.anchor_size(position, galley.size());
@@ -110,7 +111,7 @@ fn label(ui: &Ui, position: Pos2, anchor: Align2, words: &str, colour: egui::Col
     ui.painter().galley(place.min, galley, colour);
 }
 
-/// Text of a direction.
+/// Formats a direction.
 pub(super) fn direction((azimuth_deg, elevation_deg): (f64, f64)) -> String {
     let azimuth = format::degrees(azimuth_deg, 1);
     format!("{azimuth}, {}", format::degrees(elevation_deg, 1))

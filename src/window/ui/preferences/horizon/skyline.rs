@@ -1,4 +1,4 @@
-//! Skyline as text, from a file, or recorded by pointing with an antenna.
+//! The skyline as text, from a file, or recorded by pointing with an antenna.
 
 use std::path::PathBuf;
 
@@ -23,13 +23,13 @@ use crate::{
 
 /// Distance in azimuth within which a new mark replaces an old one, degrees.
 const REPLACES_DEG: f64 = 2.0;
-/// Gap between marks beyond which it is reported, degrees.
+/// Min gap between marks that Azel reports, degrees.
 const GAP_DEG: f64 = 30.0;
 
-/// Recording of a skyline.
+/// A recording of the skyline.
 pub(super) struct Recording {
     marks: Vec<(f64, f64)>,
-    /// Text before the recording began.
+    /// Text of the mask before the recording.
     before: String,
     is_over: bool,
 }
@@ -50,7 +50,7 @@ impl Recording {
         self.marks.push(mark);
     }
 
-    /// Widest gap if it is too wide: from one azimuth to the next.
+    /// Returns the widest gap if it is too wide: from one azimuth to the next, degrees.
     fn gap(&self) -> Option<(f64, f64)> {
         let mut azimuths: Vec<f64> =
             self.marks.iter().map(|(azimuth_deg, _)| *azimuth_deg).collect();
@@ -69,7 +69,7 @@ fn distance_deg(a_deg: f64, b_deg: f64) -> f64 {
     Angle::from_degrees(a_deg - b_deg).wrapped_180().abs().degrees()
 }
 
-/// Form for the skyline as text: typed or pasted in any known form.
+/// Shows the form for the skyline as text, typed or pasted in any known format.
 pub(super) fn form(ui: &mut Ui, skies: &mut Skies) {
     let t = theme::tokens(ui);
     let head = row(ui, 32.0);
@@ -97,7 +97,7 @@ fn row(ui: &mut Ui, height: f32) -> Rect {
     ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover()).0
 }
 
-/// Direction of the antenna, or the reason why it cannot be marked now.
+/// Returns the direction of the antenna, or the reason why the operator cannot mark it now.
 fn markable(model: &Model, state: &HorizonState) -> Result<AzEl, String> {
     let Some(antenna) = state.shown(model) else {
         return Err("There is no antenna.".to_owned());
@@ -117,7 +117,7 @@ fn markable(model: &Model, state: &HorizonState) -> Result<AzEl, String> {
     measured.direction().ok_or_else(|| format!("{name} reports no elevation."))
 }
 
-/// Steps of a recording; Azel moves nothing.
+/// Shows the steps of a recording. Azel itself does not move the antenna.
 pub(super) fn record(ui: &mut Ui, model: &Model, skies: &mut Skies, state: &mut HorizonState) {
     let t = theme::tokens(ui);
     let direction = markable(model, state);
@@ -223,7 +223,7 @@ fn says(
     paint::name_text(ui, salt, line, words).on_hover_text(words);
 }
 
-/// Line for a mask file and the result of its last exchange.
+/// Shows the line for a mask file and the result of its last exchange.
 pub(super) fn exchange(
     ui: &mut Ui,
     bar: Rect,

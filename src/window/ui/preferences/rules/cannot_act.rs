@@ -1,4 +1,4 @@
-//! Reasons why a rule cannot act; some of them keep it from being saved.
+//! Reasons why a rule cannot act. Some of them also prevent saving the rule.
 
 use super::draft::{DraftSubject, RuleDraft, RulesDraft};
 use crate::{
@@ -6,11 +6,11 @@ use crate::{
     ui::preferences::satellites::draft::SatellitesDraft,
 };
 
-/// Antennas and satellites that the rules name, as edited.
+/// Edited antennas and satellites that the rules can name.
 pub(in crate::ui::preferences) struct RuleContext<'a> {
     /// The antennas that stay.
     pub(in crate::ui::preferences) antennas: Vec<(AntennaId, String)>,
-    /// Catalog numbers.
+    /// Catalog numbers of the favourites.
     pub(in crate::ui::preferences) favourites: Vec<u32>,
     pub(in crate::ui::preferences) satellites: &'a SatellitesDraft,
 }
@@ -20,13 +20,13 @@ pub(super) enum CannotAct {
     NoAntenna,
     NoSatellite,
     NoGroup,
-    /// A field of the hours cannot be used.
+    /// An invalid field of the hours.
     Hours,
-    /// The group has no satellites.
+    /// Index of a group without satellites.
     EmptyGroup(usize),
-    /// Only favourites are planned.
+    /// No favourite among the satellites; the schedule takes only favourites.
     NoFavourite,
-    /// An earlier rule, with this number, always decides.
+    /// Number of an earlier rule that always decides first.
     Behind(usize),
 }
 
@@ -36,13 +36,13 @@ impl RuleContext<'_> {
         other.map(|(_, name)| name.as_str())
     }
 
-    /// Name of a group that stays.
+    /// Returns the name of a group that stays.
     pub(super) fn group(&self, index: usize) -> Option<String> {
         let mut remaining = self.satellites.remaining();
         remaining.find(|(other, _)| *other == index).map(|(_, group)| group.title())
     }
 
-    /// The satellites of a rule; `None` for all.
+    /// Returns the satellites of a rule; `None` for all satellites.
     fn members(&self, subject: DraftSubject) -> Option<Vec<u32>> {
         match subject {
             DraftSubject::All => None,
@@ -61,7 +61,7 @@ impl CannotAct {
         matches!(self, Self::NoAntenna | Self::NoSatellite | Self::NoGroup | Self::Hours)
     }
 
-    /// Begins in the middle of a sentence.
+    /// Returns the reason as a clause for the middle of a sentence.
     pub(super) fn words(self, context: &RuleContext<'_>) -> String {
         match self {
             Self::NoAntenna => "its antenna is removed".to_owned(),
@@ -81,13 +81,13 @@ impl CannotAct {
 }
 
 impl RulesDraft {
-    /// Why a rule cannot act, once it is on.
+    /// Returns the reason why a rule cannot act when enabled.
     pub(super) fn cannot_act(&self, index: usize, context: &RuleContext<'_>) -> Option<CannotAct> {
         let rule = self.all().get(index)?;
         wrong(rule, context).or_else(|| self.in_vain(index, rule, context))
     }
 
-    /// Numbers of the rules that are on and cannot act although they can be saved, and why.
+    /// Returns number and reason of each enabled and valid rule that cannot act.
     pub(in crate::ui::preferences) fn idle(
         &self,
         context: &RuleContext<'_>,
@@ -129,7 +129,7 @@ impl RulesDraft {
     }
 }
 
-/// Why a rule could not be read back from the station file.
+/// Returns the reason why Azel could not read a rule back from the station file.
 pub(super) fn wrong(rule: &RuleDraft, context: &RuleContext<'_>) -> Option<CannotAct> {
     if rule.antenna.is_some_and(|id| context.antenna(id).is_none()) {
         return Some(CannotAct::NoAntenna);
@@ -145,7 +145,7 @@ pub(super) fn wrong(rule: &RuleDraft, context: &RuleContext<'_>) -> Option<Canno
     is_wrong.then_some(CannotAct::Hours)
 }
 
-/// Returns `true` if `first` applies wherever `second` does.
+/// Returns `true` if `first` applies wherever `second` applies.
 fn covers(first: &RuleDraft, second: &RuleDraft, context: &RuleContext<'_>) -> bool {
     let [one, other] = [first, second].map(|rule| rule.typed.read().0);
     let has_satellites = match (context.members(first.subject), context.members(second.subject)) {

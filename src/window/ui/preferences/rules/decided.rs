@@ -1,4 +1,4 @@
-//! The passes of the next 48 h that each rule decides, as edited.
+//! The passes of the next 48 h that each edited rule decides.
 
 use std::sync::Arc;
 
@@ -12,20 +12,20 @@ use crate::{
 };
 
 const AHEAD_H: u32 = 48;
-/// Passes are gone through again after so long, seconds.
+/// Time for which the evaluated passes stay valid, seconds.
 const KEPT_S: i64 = 30;
 
 /// A pass that a rule decides.
 pub(super) struct DecidedPass {
-    /// Catalog number.
+    /// Catalog number of the satellite.
     pub(super) satellite: u32,
     pub(super) aos: Timestamp,
     pub(super) max_elevation_deg: f64,
-    /// For these antennas.
+    /// Antennas for which the rule decides the pass.
     pub(super) antennas: Vec<AntennaId>,
 }
 
-/// The passes by the places of the rules of `station`.
+/// The decided passes, by index of the rule in `station`.
 pub(super) struct Decided {
     station: Station,
     passes: Arc<Vec<PredictedPass>>,
@@ -66,7 +66,7 @@ impl Decided {
             && Arc::ptr_eq(&self.passes, &model.pass_lists.favourites.passes)
     }
 
-    /// The passes that the rule at this place decides, by AOS.
+    /// Returns the passes that the rule at this index decides, by AOS.
     pub(super) fn rule(&self, place: usize) -> &[DecidedPass] {
         self.of_rules.get(place).map(Vec::as_slice).unwrap_or_default()
     }

@@ -13,11 +13,11 @@ use crate::{
     },
 };
 
-/// Sections of the fields of a rule.
+/// Titles of the sections of a rule.
 pub(super) const WHEN: &str = "When";
 pub(super) const ACTION_LABEL: &str = "Then";
 
-/// The rules in their order; those that saving removes keep their place until then.
+/// The rules in their order. Rules that saving removes keep their place until then.
 #[derive(PartialEq)]
 pub(in crate::ui::preferences) struct RulesDraft(Vec<RuleDraft>);
 
@@ -25,7 +25,7 @@ pub(in crate::ui::preferences) struct RulesDraft(Vec<RuleDraft>);
 pub(super) struct Conditions {
     pub(super) sun: Option<SunIs>,
     pub(super) is_by_hours: bool,
-    /// They wait here while the rule holds at all hours.
+    /// Hours of the rule, kept while the rule applies at all hours.
     pub(super) hours: HoursOfDay,
     pub(super) action: RuleAction,
 }
@@ -34,15 +34,15 @@ pub(super) struct Conditions {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum DraftSubject {
     All,
-    /// `None` until one is chosen.
+    /// A satellite; `None` until the operator chooses one.
     Satellite(Option<u32>),
-    /// Index of the draft of the group: the rule follows its name.
+    /// Index of the draft of a group. The rule follows the name of the group.
     Group(Option<usize>),
 }
 
 #[derive(PartialEq)]
 pub(super) struct RuleDraft {
-    /// Place among the rules as saved.
+    /// Index among the saved rules.
     was: Option<usize>,
     pub(super) is_on: bool,
     pub(super) antenna: Option<AntennaId>,
@@ -80,7 +80,7 @@ impl RuleDraft {
         }
     }
 
-    /// The rule as saved.
+    /// Returns the saved rule.
     pub(super) fn was_in<'a>(&self, before: &'a RulesDraft) -> Option<&'a Self> {
         self.was.and_then(|was| before.0.get(was))
     }
@@ -98,7 +98,7 @@ impl RuleDraft {
             + usize::from(was.subject != self.subject)
     }
 
-    /// The rule as typed. `None` where it would not be one of the station file.
+    /// Returns the rule as entered, or `None` if the station file could not contain it.
     fn read(&self, context: &RuleContext<'_>) -> Option<AutomationRule> {
         let rule_subject = match self.subject {
             DraftSubject::All => None,
@@ -131,7 +131,7 @@ impl RulesDraft {
         self.0.get_mut(index)
     }
 
-    /// Adds a rule that leaves all passes out, switched off, at the end, and returns its place.
+    /// Appends a disabled rule that excludes all passes, and returns its index.
     pub(in crate::ui::preferences) fn add(&mut self) -> usize {
         let conditions = Conditions {
             sun: None,
@@ -150,7 +150,7 @@ impl RulesDraft {
         self.0.len() - 1
     }
 
-    /// Adds a rule like this one, switched off, behind it, and returns its place.
+    /// Inserts a disabled copy of a rule after it, and returns the index of the copy.
     pub(super) fn duplicate(&mut self, index: usize) -> Option<usize> {
         let rule = self.0.get(index)?;
         let copy = RuleDraft {
@@ -165,7 +165,7 @@ impl RulesDraft {
         Some(index + 1)
     }
 
-    /// Moves a rule to another place.
+    /// Moves a rule to another index.
     pub(super) fn reorder(&mut self, start: usize, end: usize) {
         if start < self.0.len() && end < self.0.len() {
             let rule = self.0.remove(start);
@@ -173,7 +173,7 @@ impl RulesDraft {
         }
     }
 
-    /// The number of a rule among those that stay, from 1.
+    /// Returns the number of a rule among the rules that stay, from 1.
     pub(super) fn number(&self, index: usize) -> Option<usize> {
         let rule = self.0.get(index).filter(|rule| !rule.is_removed);
         let before = self.0.iter().take(index).filter(|rule| !rule.is_removed).count();
@@ -184,13 +184,13 @@ impl RulesDraft {
         !self.0.iter().filter_map(|rule| rule.was).is_sorted()
     }
 
-    /// Edits, of which another order is one.
+    /// Returns the number of edits; a new order counts as one edit.
     pub(super) fn edited(&self, before: &Self) -> usize {
         let edited = self.0.iter().map(|rule| rule.edits(before)).sum::<usize>();
         edited + usize::from(self.is_reordered())
     }
 
-    /// The rules that would not be read back from the station file.
+    /// Returns findings for the rules that Azel could not read back from the station file.
     pub(super) fn wrong(&self, context: &RuleContext<'_>) -> Vec<Finding> {
         let frequency = |index: usize| {
             let number = self.number(index)?;
@@ -201,7 +201,7 @@ impl RulesDraft {
         (0..self.0.len()).filter_map(frequency).collect()
     }
 
-    /// The rules, if all of them are right.
+    /// Returns the rules if all of them are valid.
     pub(super) fn read(&self, context: &RuleContext<'_>) -> Option<Vec<AutomationRule>> {
         if !self.wrong(context).is_empty() {
             return None;

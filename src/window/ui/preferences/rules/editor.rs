@@ -1,4 +1,5 @@
-//! The chosen rule as a form that ends with it as one sentence, and the passes that it decides.
+//! The form of the chosen rule, which ends with the rule as one sentence, and the passes that it
+//! decides.
 
 use egui::{Frame, Label, Margin, RichText, Sense, Ui, vec2};
 
@@ -25,7 +26,7 @@ use crate::{
     },
 };
 
-/// Passes that are listed.
+/// Max number of listed passes.
 const LISTED: usize = 10;
 
 pub(super) fn show(
@@ -192,7 +193,7 @@ fn choose_group(
     });
 }
 
-/// The rule as one sentence, and why it cannot act.
+/// Shows the rule as one sentence, and the reason why it cannot act.
 fn sentence(ui: &mut Ui, shown: &Shown) {
     let t = theme::tokens(ui);
     let frame = Frame::new().fill(t.bg2).corner_radius(6).inner_margin(Margin::symmetric(12, 8));
@@ -207,7 +208,7 @@ fn sentence(ui: &mut Ui, shown: &Shown) {
     });
 }
 
-/// The passes of the next 48 h that the rule decides.
+/// Shows the passes of the next 48 h that the rule decides.
 pub(super) fn decided(
     ui: &mut Ui,
     model: &Model,

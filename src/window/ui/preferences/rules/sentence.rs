@@ -1,4 +1,4 @@
-//! A rule as one sentence, made from its fields.
+//! Describes a rule in one sentence, made from its fields.
 
 use super::{
     cannot_act::RuleContext,
@@ -9,7 +9,7 @@ use crate::{
     ui::words,
 };
 
-/// The rule as a sentence. `name` gives the name of a satellite.
+/// Returns the rule as a sentence. `name` returns the name of a satellite.
 pub(super) fn sentence(
     rule: &RuleDraft,
     context: &RuleContext<'_>,
@@ -56,7 +56,7 @@ fn passes(rule: &RuleDraft, context: &RuleContext<'_>, name: &dyn Fn(u32) -> Str
     }
 }
 
-/// The Sun and the hours of a rule; empty where it always holds.
+/// Returns the Sun and hour conditions of a rule; empty if the rule always applies.
 fn when(rule: &RuleDraft) -> String {
     let conditions = rule.typed.read().0;
     let sun = conditions.sun.map(|sun| match sun {
@@ -70,7 +70,7 @@ fn when(rule: &RuleDraft) -> String {
     sun.into_iter().chain(hours).collect::<Vec<_>>().join(", ")
 }
 
-/// The conditions of a rule in a few words.
+/// Returns the conditions of a rule in a few words.
 pub(super) fn when_in_short(
     rule: &RuleDraft,
     context: &RuleContext<'_>,
@@ -99,7 +99,7 @@ pub(super) fn when_in_short(
     if parts.is_empty() { "always".to_owned() } else { parts.join(", ") }
 }
 
-/// Effect of a rule, in a few words.
+/// Returns the effect of a rule in a few words.
 pub(super) fn then_in_short(rule: &RuleDraft) -> &'static str {
     match (rule.typed.read().0.action, rule.subject) {
         (RuleAction::Take, _) => "take, whatever the limits",

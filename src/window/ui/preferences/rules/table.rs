@@ -150,7 +150,7 @@ fn draw(
     keys(ui, &response, index, rules, state);
 }
 
-/// Paints the ring of the row that has the focus, over the grounds of its neighbours.
+/// Paints the focus ring of a row above the backgrounds of its neighbours.
 fn ring(ui: &Ui, all: Rect, rules: usize) {
     let focused = (0..rules).find(|index| ui.memory(|memory| memory.has_focus(id_of(ui, *index))));
     let Some(index) = focused else { return };
@@ -160,7 +160,7 @@ fn ring(ui: &Ui, all: Rect, rules: usize) {
     ui.painter().rect_stroke(row.shrink(1.0), 0.0, stroke, StrokeKind::Inside);
 }
 
-/// The row as a control that chooses the rule.
+/// Draws the row as a control that chooses the rule.
 fn choice(ui: &Ui, row: Rect, shown: &Shown, state: &mut RulesState) -> Response {
     let t = theme::tokens(ui);
     let is_chosen = state.chosen == shown.index;
@@ -200,7 +200,8 @@ fn choice(ui: &Ui, row: Rect, shown: &Shown, state: &mut RulesState) -> Response
     response
 }
 
-/// Number of passes that the rule decides in the next 48 h, or the reason why it decides none.
+/// Draws the number of passes that the rule decides in the next 48 h, or the reason why it decides
+/// none.
 fn last(ui: &Ui, place: Rect, shown: &Shown, is_idle: bool, is_removed: bool, state: &RulesState) {
     let t = theme::tokens(ui);
     let (words, ink) = match (&shown.hindrance, shown.decided(state)) {
@@ -244,10 +245,10 @@ fn switch(ui: &Ui, rect: Rect, number: &str, is_on: &mut bool, index: usize) {
     paint::focus_ring(ui, &response, 10);
 }
 
-/// The part of a row by which it is dragged to another place.
+/// Draws the grip with which the operator drags a row to another place.
 fn grip(ui: &Ui, rect: Rect, index: usize, state: &mut RulesState) {
     let t = theme::tokens(ui);
-    // For the pointer alone: Tab skips it, and Alt with the arrows moves the row that has the focus.
+    // The grip is only for the pointer. Tab skips it; Alt with an arrow key moves the focused row.
     let response = ui.interact(rect, ui.make_persistent_id(("grip", index)), Sense::DRAG);
     let name = format!("Drag rule {} to another place", index + 1);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
@@ -264,7 +265,7 @@ fn grip(ui: &Ui, rect: Rect, index: usize, state: &mut RulesState) {
     }
 }
 
-/// Lets the rule that is dragged follow the pointer.
+/// Moves the dragged rule along with the pointer.
 fn drag(ui: &Ui, all: Rect, rules: &mut RulesDraft, state: &mut RulesState) {
     let Some(start) = state.dragged else { return };
     let pointer = ui.input(|input| input.pointer.latest_pos().filter(|_| input.pointer.any_down()));
@@ -281,7 +282,7 @@ fn drag(ui: &Ui, all: Rect, rules: &mut RulesDraft, state: &mut RulesState) {
     }
 }
 
-/// The keys of the row with the focus: arrows choose, with Alt they move the rule.
+/// Handles the keys of the focused row: arrows choose a rule, Alt with arrows moves it.
 fn keys(
     ui: &Ui,
     response: &Response,

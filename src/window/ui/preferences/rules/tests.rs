@@ -70,7 +70,7 @@ fn text(rule: AutomationRule) -> String {
     with_draft(&station(vec![rule]), |rules, context| sentence(&rules.all()[0], context, &name))
 }
 
-/// Why the last of these rules cannot act.
+/// Returns the reason why the last of these rules cannot act.
 fn hindrance(rules: Vec<AutomationRule>) -> Option<CannotAct> {
     let last = rules.len() - 1;
     with_draft(&station(rules), |rules, context| rules.cannot_act(last, context))

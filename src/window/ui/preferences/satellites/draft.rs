@@ -1,4 +1,4 @@
-//! Draft of the priorities and limits of the favourites, and of the groups.
+//! Draft of the groups and of the priorities and limits of the favourites.
 
 use std::borrow::Cow;
 
@@ -16,7 +16,7 @@ use crate::{
     },
 };
 
-/// Section of the fields of a group.
+/// Title of the section of a group.
 pub(super) const GROUP: &str = "Group";
 const PRIORITIES: [Option<Priority>; 6] = {
     let [first, second, third, fourth, fifth] = Priority::ALL;
@@ -26,13 +26,13 @@ const PRIORITIES: [Option<Priority>; 6] = {
 #[derive(PartialEq)]
 pub(in crate::ui::preferences) struct SatellitesDraft {
     pub(super) followed: Typed<Followed>,
-    /// Own settings of each favourite. A field of the station lists the favourites; the settings of
-    /// one that left are kept until it is back.
+    /// Own settings of each favourite. A field of the station lists the favourites. The settings of
+    /// a removed favourite wait for its return.
     own: Favourites,
     groups: Vec<GroupDraft>,
 }
 
-/// A group; it keeps its place among the groups while it is removed.
+/// A group. A removed group keeps its place among the groups.
 #[derive(PartialEq)]
 pub(in crate::ui::preferences) struct GroupDraft {
     was: Option<SatelliteGroup>,
@@ -50,7 +50,7 @@ pub(super) struct Named {
 
 /// Settings that a satellite gets from its groups.
 pub(super) struct OfGroups {
-    /// With the name of the group.
+    /// Priority, and the name of the group that sets it.
     pub(super) priority: Option<(Priority, String)>,
     pub(super) limits: PassLimits,
 }
@@ -77,7 +77,7 @@ impl GroupDraft {
         }
     }
 
-    /// The name as typed; that of before while there is none.
+    /// Returns the entered name, or the previous name if the field is empty.
     pub(in crate::ui::preferences) fn title(&self) -> String {
         let typed = self.named.name().trim();
         if typed.is_empty() { self.named.before().name.clone() } else { typed.to_owned() }
@@ -131,7 +131,7 @@ impl SatellitesDraft {
         }
     }
 
-    /// Catalog numbers of the favourites as typed.
+    /// Returns the entered catalog numbers of the favourites.
     pub(in crate::ui::preferences) fn favourites(&self) -> Vec<u32> {
         self.followed.read().0.favourites.numbers()
     }
@@ -156,14 +156,14 @@ impl SatellitesDraft {
         self.groups.get_mut(index)
     }
 
-    /// The groups that stay, by their indices.
+    /// Returns the groups that stay, with their indices.
     pub(in crate::ui::preferences) fn remaining(
         &self,
     ) -> impl Iterator<Item = (usize, &GroupDraft)> {
         self.groups.iter().enumerate().filter(|(_, group)| !group.is_removed)
     }
 
-    /// Satellites of a group that stays.
+    /// Returns the satellites of a group that stays.
     pub(in crate::ui::preferences) fn members(&self, group: usize) -> Option<&[u32]> {
         let group = self.groups.get(group).filter(|group| !group.is_removed)?;
         Some(&group.satellites)
@@ -192,7 +192,8 @@ impl SatellitesDraft {
         self.groups.iter().map(|group| group.named.name())
     }
 
-    /// Standings of the fields of a group: its name differs from those of the others as well.
+    /// Returns the state of each field of a group. Its name must differ from the names of the other
+    /// groups.
     pub(super) fn standings(&self, index: usize) -> Vec<Standing> {
         let Some(group) = self.groups.get(index) else { return Vec::new() };
         let others = self.remaining().filter(|(other, _)| *other != index);
@@ -201,7 +202,7 @@ impl SatellitesDraft {
         group.named.standings_among(others.map(|(_, other)| other.named.name()), &names, reason)
     }
 
-    /// The groups whose names cannot be used.
+    /// Returns the groups with invalid names.
     fn groups_findings(&self) -> impl Iterator<Item = Finding> {
         self.remaining().filter_map(|(index, group)| {
             let problem =
@@ -212,7 +213,7 @@ impl SatellitesDraft {
 }
 
 impl DraftSection for SatellitesDraft {
-    /// Each priority and each row of limits is one.
+    /// Counts each changed priority and each changed row of limits as one edit.
     fn edits(&self, before: &Draft) -> usize {
         let of_favourite = |own: &Favourite| {
             let was = before.satellites.own(own.satellite);
@@ -240,7 +241,8 @@ impl DraftSection for SatellitesDraft {
         self.followed.type_in(label, text);
     }
 
-    /// Limits to antennas that are gone do not name them any more.
+    /// Writes the settings into the station. Removes antennas from limits if the station no longer
+    /// has them.
     fn put_into(&self, _: &Draft, station: &mut Station) -> Option<()> {
         if self.groups_findings().next().is_some() {
             return None;

@@ -22,9 +22,9 @@ pub(super) const TITLE: &str = "Priorities of the favourites";
 const ROW: f32 = 32.0;
 const HEAD: f32 = 20.0;
 const PRIORITY: f32 = 176.0;
-/// Width of what holds for a favourite without a priority of its own.
+/// Width of the inherited settings of a favourite without its own priority, points.
 const DEFAULTS_WIDTH: f32 = 76.0;
-/// Width of the limits, and in a wide row.
+/// Width of the limits: default, and in a wide row, points.
 const LIMITS: [f32; 2] = [112.0, 240.0];
 const WIDE: f32 = 640.0;
 
@@ -54,7 +54,7 @@ pub(super) fn show(
     });
 }
 
-/// The columns in `row`: name, priority of its own, what holds without one, limits.
+/// Returns the columns in `row`: name, own priority, inherited settings, limits.
 fn columns(row: Rect) -> [Rect; 4] {
     let from_right = |right: f32, width: f32| {
         let centre = egui::pos2(row.right() - right - width / 2.0, row.center().y);
@@ -67,7 +67,7 @@ fn columns(row: Rect) -> [Rect; 4] {
     [name, priority, from_right(limits + GAP, DEFAULTS_WIDTH), from_right(0.0, limits)]
 }
 
-/// Column headings.
+/// Draws the column headings.
 fn head(ui: &mut Ui) {
     let t = theme::tokens(ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEAD), Sense::hover());

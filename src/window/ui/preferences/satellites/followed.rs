@@ -8,7 +8,7 @@ use crate::{
 
 type FollowedDescription = Description<Followed>;
 
-/// Sections of the fields, each of which is a card.
+/// Titles of the cards of these fields.
 const SATELLITES: &str = "Satellites";
 const FREQUENCIES: &str = "Frequencies";
 
@@ -58,7 +58,7 @@ fn frequencies() -> FollowedDescription {
     .described("For the Doppler shift; a satellite may have several.")
 }
 
-/// Catalog numbers, separated by commas.
+/// Returns the catalog numbers, separated by commas.
 fn favourites(followed: &Followed) -> String {
     let numbers: Vec<String> = followed.favourites.numbers().iter().map(u32::to_string).collect();
     numbers.join(", ")

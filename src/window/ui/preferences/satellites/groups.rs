@@ -60,7 +60,7 @@ fn row(
     let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
     ui.painter().hline(row.x_range(), row.top(), (1.0, t.line));
     let title = group.title();
-    // Both words have the same width: the place stays under the pointer.
+    // Both labels have the same width, so that the button stays under the pointer.
     let width = Button::quiet("Undo: keep it").width(ui);
     let word = if group.is_removed { "Undo: keep it" } else { "Remove" };
     let place = Rect::from_center_size(
@@ -112,7 +112,7 @@ fn row(
     }
 }
 
-/// The group in a few words, such as "2 satellites, priority 1, by night".
+/// Returns the group in a few words, such as "2 satellites, priority 1, by night".
 fn in_short(group: &GroupDraft, context: &GroupContext<'_>) -> String {
     let satellites = match group.satellites.len() {
         0 => "no satellites".to_owned(),
@@ -151,7 +151,7 @@ fn edit(
     ui.add_space(8.0);
 }
 
-/// Shows the satellites of a group; a click removes one.
+/// Shows the satellites of a group; a click on a satellite removes it.
 fn members(ui: &mut Ui, context: &GroupContext<'_>, group: &str, satellites: &mut Vec<u32>) {
     let mut removed = None;
     ui.horizontal_wrapped(|ui| {

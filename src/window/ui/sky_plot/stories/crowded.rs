@@ -1,8 +1,9 @@
-//! Labels that have little room.
+//! Tests of labels with little room.
 
 use super::*;
 
-/// A crowded sky: a pass, two satellites, the Moon, an antenna at the zenith and one at the rim.
+/// Returns a crowded sky: a pass, two satellites, the Moon, an antenna at the zenith and one at the
+/// rim.
 fn crowded(turn: i16) -> Harness<'static, Story> {
     let turned = move |direction: AzEl| {
         AzEl::from_degrees(direction.azimuth_deg() + f64::from(turn), direction.elevation_deg())
@@ -44,7 +45,7 @@ fn no_text_of_a_crowded_sky_lies_on_another() {
         let all = texts(&crowded(turn));
         for (index, (words, place)) in all.iter().enumerate() {
             for (other, rect) in &all[index + 1..] {
-                // Letters are lower than their line.
+                // Letters are lower than the height of their line.
                 let [one, two] = [place, rect].map(|mark| mark.shrink2(vec2(2.0, 3.5)));
                 assert!(!one.intersect(two).is_positive(), "{turn}: {words:?} on {other:?}");
             }
@@ -52,7 +53,7 @@ fn no_text_of_a_crowded_sky_lies_on_another() {
     }
 }
 
-/// Sizes of the plot in the smallest window, a usual one and two large ones.
+/// Sizes of the plot in the smallest, a common and two large windows, points.
 const SIZES: [Vec2; 4] = [vec2(672.0, 412.0), LARGE, vec2(1100.0, 840.0), vec2(1500.0, 1160.0)];
 
 fn turned_pass(turn: i16) -> Vec<crate::plan::Sample> {
@@ -64,7 +65,7 @@ fn turned_pass(turn: i16) -> Vec<crate::plan::Sample> {
     testing::pass().into_iter().map(turned).collect()
 }
 
-/// Returns `true` where the path runs through a text.
+/// Returns `true` if the path crosses a text.
 fn crosses(path: &[Pos2], text: Rect) -> bool {
     let letters = text.shrink2(vec2(0.0, 3.0));
     let position = |pair: &[Pos2], step: u8| pair[0].lerp(pair[1], f32::from(step) / 20.0);

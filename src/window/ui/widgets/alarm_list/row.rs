@@ -24,19 +24,19 @@ use crate::{
     },
 };
 
-/// Height of a row with one line of text and one button; more of them make it higher.
+/// Min height of a row, points: one line of text and one button.
 pub(super) const HEIGHT: f32 = 52.0;
-/// Gap between the text and its times, and between two buttons.
+/// Gap between the text and its times, and between two buttons, points.
 const GAP: f32 = 1.0;
 const BUTTON_GAP: f32 = 6.0;
 const BUTTON: f32 = 100.0;
-/// Room at the right for the scroll bar.
+/// Room at the right for the scroll bar, points.
 const RIGHT: f32 = 8.0;
-/// Room for the mark at the left of the text.
+/// Room for the mark at the left of the text, points.
 const TEXT_LEFT: f32 = 34.0;
-/// Further room at the left of what follows from another alarm.
+/// Additional room at the left of an alarm that follows from another, points.
 const INDENT: f32 = 16.0;
-/// Padding above the text and below the times.
+/// Padding above the text and below the times, points.
 const PADDING: f32 = 9.0;
 
 /// A button of a row.
@@ -45,7 +45,7 @@ struct RowButton {
     command: Option<UiCommand>,
 }
 
-/// Shows a row, and below it the choice of times while it is being shelved.
+/// Shows a row. While the operator shelves the alarm, the choice of times stands below it.
 pub(super) fn show(ui: &mut Ui, row: &AlarmRow<'_>, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     let indent = if row.follows { INDENT } else { 0.0 };
@@ -127,7 +127,8 @@ fn buttons(row: &AlarmRow<'_>) -> Vec<RowButton> {
     buttons
 }
 
-/// Shows the times for which an alarm can be shelved. Returns `true` once one was chosen.
+/// Shows the times for which an alarm can be shelved. Returns `true` once the operator has chosen
+/// one.
 fn choose_time(ui: &mut Ui, row: &AlarmRow<'_>, commands: &mut Vec<UiCommand>) -> bool {
     let size = vec2(ui.available_width(), SMALL_HEIGHT + PADDING);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
@@ -152,8 +153,8 @@ fn choose_time(ui: &mut Ui, row: &AlarmRow<'_>, commands: &mut Vec<UiCommand>) -
     is_chosen
 }
 
-/// Paints the mark of a row. Its outline tells whether the reason stands, the dot beside it that
-/// nobody has acknowledged it.
+/// Paints the mark of a row. The icon shows the state and priority of the alarm. A dot shows that
+/// nobody has acknowledged the alarm.
 fn mark(ui: &Ui, rect: Rect, row: &AlarmRow<'_>, t: &Tokens) {
     let (icon, colour) = icon(row, t);
     let centre = pos2(rect.left() + 17.0, rect.center().y);

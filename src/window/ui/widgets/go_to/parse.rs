@@ -1,4 +1,4 @@
-//! Parses an angle that the operator typed.
+//! Parsing of an angle that the operator has entered.
 
 /// A field of the go-to form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,7 +27,7 @@ pub fn angle(text: &str, name: &str, range_deg: (f64, f64)) -> Result<f64, Strin
         return Err(format!("{name} is empty. Write an angle, such as 85.5."));
     }
     let plain = typed.trim_end_matches('°').trim_end().replace('−', "-").replace(',', ".");
-    // `inf`, `nan` and exponents would parse, but are slips of the finger here.
+    // `inf`, `nan` and exponents would parse, but here they are typing errors.
     let only_digits = plain.chars().all(|c| c.is_ascii_digit() || matches!(c, '.' | '-' | '+'));
     let value = if only_digits { plain.parse::<f64>().ok() } else { None };
     let Some(value) = value else {

@@ -1,4 +1,4 @@
-//! Decides whether a jog key is held. Everything doubtful counts as released.
+//! Detection of a held jog key. Every doubtful state counts as released.
 
 use egui::{Event, InputState, Key};
 
@@ -14,9 +14,9 @@ enum Source {
 /// The part of the pad that has the keyboard focus.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Focus {
-    /// The pad as a whole: the arrows are its keys.
+    /// The pad as a whole, with the arrows as its keys.
     Pad,
-    /// One key, for Space and Enter as well.
+    /// One key, which Space and Enter also press.
     Key(JogDirection),
 }
 
@@ -33,20 +33,20 @@ pub struct JogState {
 enum Wish {
     #[default]
     None,
-    /// Requested in this frame, by a key that may be among its events.
+    /// A request of this frame, possibly by a key among its events.
     New,
-    /// Waits until the pad is free.
+    /// A request that waits until the pad is free.
     Waiting,
 }
 
 /// The input of one frame.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Frame {
-    /// Jogging is refused.
+    /// `true` if Azel refuses jogging.
     locked: bool,
     /// Directions without a usable key, in the order of [`JogDirection::ALL`].
     pub(super) blocked: [bool; 4],
-    /// The pointer holds this key down.
+    /// Key that the pointer holds down.
     pub(super) pointer_on: Option<JogDirection>,
     pub(super) focus: Option<Focus>,
     pointer_lost: bool,
@@ -55,7 +55,7 @@ pub(super) struct Frame {
     escape: bool,
     pressed: Vec<Key>,
     down: Vec<Key>,
-    /// Any key or button went down, on the pad or elsewhere.
+    /// `true` if any key or button went down, on the pad or elsewhere.
     anything_pressed: bool,
 }
 
@@ -74,7 +74,7 @@ impl Frame {
         self.pointer_pressed = input.pointer.primary_pressed();
         self.escape = input.key_pressed(Key::Escape);
         self.down = USED.into_iter().filter(|key| input.key_down(*key)).collect();
-        // Raw events include those that another control has consumed.
+        // Raw events include the events that another control has consumed.
         self.anything_pressed = input.raw.events.iter().any(|event| {
             matches!(
                 event,
@@ -86,7 +86,7 @@ impl Frame {
             .events
             .iter()
             .filter_map(|event| match event {
-                // A repeated press may be left over from before the focus came back.
+                // A repeated press may have started before the window got the focus.
                 Event::Key { key, pressed: true, repeat: false, modifiers, .. }
                     if !modifiers.any() =>
                 {
@@ -111,7 +111,7 @@ impl Frame {
         }
     }
 
-    /// A key that went down in this frame.
+    /// Returns a jog key that went down in this frame.
     fn new_press(&self) -> Option<(JogDirection, Source)> {
         if self.pointer_pressed
             && !self.pointer_lost
@@ -134,7 +134,7 @@ impl Frame {
 }
 
 impl JogState {
-    /// Advances by one frame and returns the held direction.
+    /// Advances by one frame. Returns the held direction.
     pub(super) fn step(&mut self, frame: &Frame) -> Option<JogDirection> {
         self.focus = frame.focus.is_some() && !frame.window_lost;
         if frame.locked || frame.window_lost || frame.escape {
@@ -151,7 +151,7 @@ impl JogState {
         self.held_jog.map(|(direction, _)| direction)
     }
 
-    /// Gives the pad the keyboard focus as soon as the pad is free. Moves nothing.
+    /// Gives the pad the keyboard focus as soon as the pad is free. This moves nothing.
     pub fn focus(&mut self) {
         self.wish = Wish::New;
     }
@@ -171,7 +171,7 @@ impl JogState {
         frame.focus.is_none()
     }
 
-    /// The pad or one of its keys has the keyboard focus.
+    /// Returns `true` if the pad or one of its keys has the keyboard focus.
     pub fn has_focus(self) -> bool {
         self.focus
     }

@@ -15,7 +15,7 @@ impl JogDirection {
     /// All directions in Tab order.
     pub const ALL: [Self; 4] = [Self::YPlus, Self::XMinus, Self::XPlus, Self::YMinus];
 
-    /// Signs of the two axes.
+    /// Returns the signs of the two axes.
     pub fn signs(self) -> (i8, i8) {
         match self {
             Self::XPlus => (1, 0),
@@ -25,7 +25,7 @@ impl JogDirection {
         }
     }
 
-    /// The direction that an arrow key stands for.
+    /// Returns the direction of an arrow key.
     pub fn of_arrow(key: Key) -> Option<Self> {
         Self::ALL.into_iter().find(|direction| direction.arrow() == key)
     }
@@ -40,17 +40,17 @@ impl JogDirection {
     }
 }
 
-/// The pair of axes that the keys turn, which gives their labels.
+/// The axes that the keys move; they determine the labels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum JogKeys {
-    /// The axes of an X/Y mount, with the side of the sky to which each key leads.
+    /// The axes of an X/Y mount, with the direction in the sky of each key.
     Xy { x_plus: &'static str, x_minus: &'static str, y_plus: &'static str, y_minus: &'static str },
     /// Azimuth and elevation.
     #[default]
     AzEl,
-    /// The azimuth, and something else by this name.
+    /// The azimuth, and a second axis of this name.
     AzOther(&'static str),
-    /// The azimuth alone.
+    /// Only the azimuth.
     Az,
 }
 
@@ -59,9 +59,9 @@ pub enum JogKeys {
 pub struct KeyLabel {
     /// An arrow, a sign or the axis, above the word.
     pub mark: &'static str,
-    /// The word of the front panels, or the side of the sky.
+    /// Word of the front panels, or direction in the sky.
     pub word: &'static str,
-    /// The axis and direction, for screen readers.
+    /// Axis and direction, for screen readers.
     pub name: String,
     /// Further description of the key; may be empty.
     pub description: String,

@@ -40,7 +40,7 @@ fn a_pointer_holds_a_key_until_it_is_released() {
     window.drag_at(position);
     window.step();
     assert_eq!(window.state().direction, Some(JogDirection::XPlus));
-    // Ten seconds with a slightly moving pointer.
+    // The pointer moves slightly for ten seconds.
     for _ in 0..40 {
         window.hover_at(position + vec2(9.0, 3.0));
         window.step();

@@ -1,4 +1,4 @@
-//! Drawing on the sky itself: points of the skyline and new zones.
+//! Drawing directly on the sky: points of the skyline and new zones.
 
 use egui::{Pos2, Response, Stroke, StrokeKind, Ui};
 
@@ -21,7 +21,7 @@ use crate::{
     },
 };
 
-/// Handles a click or a drag on the sky itself.
+/// Handles a click or a drag on the sky.
 pub(super) fn draw_on_canvas(
     ui: &Ui,
     canvas: &Response,
@@ -73,7 +73,7 @@ pub(super) fn draw_on_canvas(
                 state
                     .drawing
                     .push(edit::snapped(edit::position_under(dome, position, near), coarse));
-                // Both clicks of a double click are at the same place.
+                // A double click adds the same point twice.
                 state.drawing.dedup();
             }
         }

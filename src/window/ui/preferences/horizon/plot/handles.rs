@@ -1,4 +1,4 @@
-//! Handles to drag: corners of the selected zone and points of the skyline.
+//! Handles that the operator drags: corners of the selected zone and points of the skyline.
 
 use egui::{
     Align2, EventFilter, Key, Modifiers, PointerButton, Pos2, Response, Role, Sense, Stroke,
@@ -15,12 +15,12 @@ use super::{
 };
 use crate::ui::{sky_plot::geometry::Dome, tokens::Tokens, widgets::paint};
 
-/// Maximum number of skyline points with handles.
+/// Max number of skyline points with handles.
 const MAX_HANDLES: usize = 120;
 const CHOSEN: f32 = 12.0;
 const MIDDLE: f32 = 7.0;
 const POINT: f32 = 6.0;
-/// Size of the area around a mark where the pointer grips it.
+/// Side of the area around a mark that the pointer grips, points.
 const GRIP: f32 = 16.0;
 
 pub(super) fn zone_handles(
@@ -153,7 +153,7 @@ pub(super) fn skyline_handles(
     }
 }
 
-/// A mark that can be dragged, clicked and reached with Tab.
+/// Draws a mark that the operator can drag, click and reach with Tab.
 fn handle(ui: &Ui, salt: (&str, usize), position: Pos2, name: &str) -> Response {
     let rect = paint::square(position, GRIP);
     let response = ui.interact(rect, ui.make_persistent_id(salt), Sense::click_and_drag());
@@ -166,7 +166,7 @@ struct Keys {
     adds: bool,
 }
 
-/// Step of an arrow key in degrees, and other keys pressed.
+/// Returns the step of an arrow key in degrees, and other pressed keys.
 fn keys(ui: &Ui, response: &Response) -> (Option<(f64, f64)>, Keys) {
     let filter =
         EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };

@@ -1,4 +1,4 @@
-//! Scene of the plot: the sky with its obstructions, the passes, the Sun and the antenna.
+//! The scene of the plot: the sky with its obstructions, the passes, the Sun and the antenna.
 
 use std::ops::Range;
 
@@ -119,7 +119,7 @@ pub(super) fn holds_for(zone: &ZoneDraft, antenna: Option<&Antenna>) -> bool {
     }
 }
 
-/// Effect of the keep-out with this name on the passes.
+/// Returns the effect of the keep-out with this name on the passes.
 fn toll_of<'a>(effect: &'a Effect<Question>, name: Option<&str>) -> Option<&'a Toll> {
     let keep_outs = &effect.question.after.keep_outs;
     let place = keep_outs.iter().position(|keep_out| Some(&*keep_out.name) == name)?;
@@ -137,7 +137,7 @@ fn path(
     dome.path(samples.into_iter().flatten().map(|sample| sample.direction))
 }
 
-/// Draws all passes, those that the selected keep-out touches on top.
+/// Draws all passes. The passes that the selected keep-out touches are on top.
 fn passes(ui: &Ui, dome: Dome, effect: &Effect<Question>, chosen: Option<&str>, t: &Tokens) {
     let toll = toll_of(effect, chosen);
     let touched =
@@ -202,7 +202,7 @@ fn sun(
 ) {
     let way = state.sun_way(model.station.site, model.now);
     let path = dome.path(way.iter().copied());
-    // The path sets and rises: draw no line across the sky from one to the other.
+    // The path of the Sun sets and rises; no line joins these two points across the sky.
     for part in path.chunk_by(|a, b| a.distance(*b) < dome.radius / 4.0) {
         ui.painter().extend(dashed(part, 1.5, 4.0, Stroke::new(1.0, t.sun)));
     }
