@@ -1,5 +1,5 @@
-//! Tests of the library from outside, and of the window without a display. They share one
-//! binary because each binary would link everything anew.
+//! Tests of the library from outside, and of the window without a display. They share one binary
+//! because each further binary would link the whole library again.
 
 #![allow(
     clippy::unwrap_used,

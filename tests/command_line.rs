@@ -1,4 +1,4 @@
-//! The program as called from a shell.
+//! Tests of the program as a user calls it from a shell.
 
 use std::process::{Command, Output};
 

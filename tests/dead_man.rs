@@ -1,5 +1,5 @@
-//! The dead-man as a process of its own, on real sockets: whatever happens to the program
-//! that started it, the unit gets STOP.
+//! Dead-man as a separate process on real sockets. The unit gets STOP no matter how the program
+//! that started the dead-man ends.
 
 use std::{
     io::{Read as _, Write as _},
@@ -49,7 +49,7 @@ impl Watched {
         }
     }
 
-    /// Returns `true` if the unit receives anything within `time`.
+    /// Returns `true` if the unit receives STOP within `time`.
     fn hears_within(&mut self, time: Duration) -> bool {
         self.unit.set_read_timeout(Some(time)).unwrap();
         let mut first = [0; STOP.len()];
@@ -62,7 +62,7 @@ impl Watched {
         }
     }
 
-    /// Everything that the unit receives until the connection is shut down.
+    /// Returns everything that the unit receives until the connection is shut down.
     fn rest(&mut self) -> Vec<u8> {
         self.unit.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
         let mut rest = Vec::new();

@@ -1,5 +1,5 @@
-//! Controllers accept what their makes declare: a change of each group of settings and
-//! each action have an outcome that the operator sees.
+//! Declared settings and actions of each make: every change and every action has an outcome that
+//! the operator sees.
 
 use std::collections::BTreeSet;
 
@@ -19,10 +19,10 @@ use jiff::Timestamp;
 use crate::common::rig::{self, Rig};
 
 const START: Timestamp = Timestamp::UNIX_EPOCH;
-/// Time limit of an outcome, and time for which an idle unit is watched, seconds.
+/// Time limit of an outcome, and time for which the tests watch an idle unit, seconds.
 const OUTCOME_S: u64 = 20;
 
-/// Antennas of each variant, with each choice of their connection.
+/// Returns one antenna for each variant of the make, found by trying each choice of the connection.
 fn antennas(spec: &'static ControllerSpec) -> Vec<Antenna> {
     let usual = spec.antenna("Dish", "in memory");
     let mut antennas = vec![usual.clone()];
@@ -45,7 +45,7 @@ fn variant(antenna: &Antenna) -> &'static Variant {
     (antenna.connection.spec().variant)(&antenna.connection)
 }
 
-/// A value that the field can have.
+/// Returns a valid value of the field.
 fn some_value(field: &Field) -> Value {
     match field.kind {
         Kind::Flag => Value::Flag(false),
@@ -61,7 +61,7 @@ fn some_value(field: &Field) -> Value {
     }
 }
 
-/// A rig in Manual, after its first readings.
+/// Starts a rig and brings it to Manual after the first readings.
 async fn in_manual<U: Unit>(antenna: &Antenna, control: Control<U>) -> Rig<Control<U>> {
     let mut rig = Rig::new(control, START, |dial, clock| rig::session(antenna, dial, clock));
     rig.send(Command::Connect);
@@ -74,7 +74,7 @@ async fn in_manual<U: Unit>(antenna: &Antenna, control: Control<U>) -> Rig<Contr
     rig
 }
 
-/// Writes the unit's own values to a group once more.
+/// Writes the current values of a group to the unit again.
 async fn write_settings<U: Unit>(rig: &mut Rig<Control<U>>, group: &'static Group, ticket: u64) {
     rig.send(Command::ReadGroup(group.key));
     rig.seconds(5.0).await;
@@ -103,7 +103,8 @@ async fn write_settings<U: Unit>(rig: &mut Rig<Control<U>>, group: &'static Grou
     rig.until(group.key, OUTCOME_S, is_over).await;
 }
 
-/// Everything an operator can see of a unit besides its angles.
+/// Watches the unit for [`OUTCOME_S`]. Returns its new requests, the labels of its readings and the
+/// events, but no angles.
 async fn seen<U: Unit>(rig: &mut Rig<Control<U>>) -> (BTreeSet<String>, Vec<String>, Vec<Event>) {
     rig.events();
     let before = rig.control.received().len();
@@ -128,7 +129,7 @@ async fn act<U: Unit>(rig: &mut Rig<Control<U>>, action: &'static Action) {
     assert!(is_new, "{} is declared and not taken", action.key);
 }
 
-/// Tries settings and actions of one antenna, with units made by `unit`.
+/// Tries all settings and actions of one antenna, with units made by `unit`.
 async fn takes_all<U: Unit>(antenna: &Antenna, unit: impl Fn() -> Control<U>) {
     let Variant { groups, actions, .. } = variant(antenna);
     let mut rig = in_manual(antenna, unit()).await;

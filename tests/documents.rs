@@ -1,4 +1,4 @@
-//! Statements of the documents about the code hold.
+//! Checks of the documents' statements about the code.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -8,7 +8,7 @@ use std::{
 
 use azel::controller::SPECS;
 
-/// Rust files below `folder`, with their paths from the top and their texts.
+/// Adds the Rust files below `folder` to `found`, with their paths from the top and their texts.
 fn sources(folder: &Path, found: &mut Vec<(String, String)>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -60,7 +60,7 @@ fn every_figure_of_the_fault_matrix_is_a_constant() {
     assert!(read > 50, "{read}");
 }
 
-/// Part of a file above its tests.
+/// Returns the part of a file above its tests.
 fn product(text: &str) -> &str {
     const HEAD: &str = "#[cfg(test)]\n";
     let is_module = |line: &str| line.contains("mod ") && line.ends_with('{');
@@ -69,17 +69,17 @@ fn product(text: &str) -> &str {
     &text[..tests.unwrap_or(text.len())]
 }
 
-/// Layers that are packages of several layers.
+/// Folders of packages that contain several layers.
 const PACKAGES: [&str; 3] = ["station/", "units/", "window/"];
-/// Layers inside of the package of orbits.
+/// Layers inside the orbit package.
 const IN_ORBIT: [&str; 2] = ["astro", "name"];
 
-/// Path of a file in its package, by its path below `src`.
+/// Returns the path of a file within its package, from its path below `src`.
 fn in_package(path: &str) -> &str {
     PACKAGES.iter().find_map(|package| path.strip_prefix(package)).unwrap_or(path)
 }
 
-/// Layer of a file, by its path below `src`.
+/// Returns the layer of a file, from its path below `src`.
 fn layer(path: &str) -> &str {
     let mut parts = in_package(path).split('/').map(|part| part.trim_end_matches(".rs"));
     let layer = parts.next().unwrap_or_default();
@@ -87,7 +87,7 @@ fn layer(path: &str) -> &str {
     inner.unwrap_or(layer)
 }
 
-/// Layers that a text names after `crate::`, in braces too.
+/// Returns the layers that a text names after `crate::`, also in braces.
 fn named(text: &str) -> BTreeSet<String> {
     let word = |text: &str| -> String {
         text.chars().take_while(|letter| letter.is_alphanumeric() || *letter == '_').collect()
@@ -117,8 +117,8 @@ fn named(text: &str) -> BTreeSet<String> {
     found
 }
 
-/// Layers that each layer may use, directly or indirectly, by the table of the
-/// architecture text.
+/// Returns the layers that each layer may use, directly or indirectly, from the table in
+/// `docs/architecture.md`.
 fn allowed() -> BTreeMap<String, BTreeSet<String>> {
     let top = Path::new(env!("CARGO_MANIFEST_DIR"));
     let text = fs::read_to_string(top.join("docs/architecture.md")).unwrap();
@@ -164,7 +164,7 @@ fn a_layer_names_only_those_that_the_architecture_text_allows() {
         let layer = layer(&path);
         let knows = allowed.get(layer).unwrap_or_else(|| panic!("{layer} is in no row"));
         read += 1;
-        // Modules of the contract are named after the layers that fill them.
+        // Contract modules have the names of the layers that fill them.
         let is_own = |other: &str| {
             layer == "contract" && top.join(layer).join(other).with_extension("rs").exists()
         };
@@ -226,7 +226,7 @@ fn no_make_is_named_outside_of_its_folders() {
     let makes: BTreeSet<String> =
         folders.map(|entry| entry.file_name().into_string().unwrap()).collect();
     assert_eq!(makes.len(), SPECS.len(), "{makes:?}");
-    // As a folder, as a type, and in the station file.
+    // Spellings of each make: as a folder, as a type, and in the station file.
     let mut words: BTreeSet<String> = makes.iter().map(|make| make.replace('_', "")).collect();
     words.extend(SPECS.iter().map(|make| make.key.to_owned()));
     let mut named = BTreeSet::new();
@@ -264,7 +264,8 @@ fn what_drives_is_named_by_no_view() {
             found.any(|word| words.contains(&word))
         };
         let is_wrong = match layer(&path) {
-            // The model takes snapshots through the handle, and keeps nothing that commands.
+            // `model.rs` may take snapshots through the handle, but must not keep anything that
+            // sends commands.
             "model" if path == "model.rs" => names(&OF_THE_DRIVER) || names(&["Client", "Engine"]),
             "ui" | "model" => names(&OF_THE_DRIVER) || names(&OF_THE_STATION),
             "app" => names(&OF_THE_DRIVER) || names(&["Engine"]),
@@ -279,7 +280,7 @@ fn what_drives_is_named_by_no_view() {
     assert!(wrong.is_empty(), "{wrong:?}");
 }
 
-/// The documents at the top, in `docs` and in `docs/operator`.
+/// Returns the documents at the top, in `docs` and in `docs/operator`.
 fn documents() -> Vec<PathBuf> {
     let top = Path::new(env!("CARGO_MANIFEST_DIR"));
     let folders = ["docs", "docs/operator"].map(|folder| top.join(folder));
@@ -290,7 +291,7 @@ fn documents() -> Vec<PathBuf> {
     pages.chain(at_the_top).collect()
 }
 
-/// Anchors of the headings of a document, as GitHub makes them.
+/// Returns the anchors of a document's headings, as GitHub makes them.
 fn anchors(text: &str) -> BTreeSet<String> {
     let mut is_code = false;
     let mut found = BTreeSet::new();
@@ -350,7 +351,7 @@ fn every_path_that_the_documents_name_is_there() {
             let is_whole = ["src/", "tests/", "benches/", "docs/", "assets/"]
                 .iter()
                 .any(|folder| path.starts_with(folder));
-            // The end of a path, where the sentence names its folder.
+            // A document may give only the end of a path if the sentence names the folder.
             let end = format!("/{path}");
             let is_source = Path::new(path).extension().is_some_and(|of| of == "rs");
             let is_end = path.contains('/') && is_source;

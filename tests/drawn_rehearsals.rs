@@ -1,10 +1,11 @@
-//! Rehearses random antennas with imperfect drives and sensors. Nobody touches them, so Azel must report
-//! no foreign motion.
+//! Rehearsals of random antennas with imperfect drives and sensors. Only Azel moves these antennas,
+//! so it must report no foreign motion.
 //!
 //! The long form takes a range of seeds. Each seed rehearses one antenna for an hour:
 //!
 //! ```text
-//! AZEL_SEED=1000 AZEL_CASES=7200 cargo test --release --test azel drawn_rehearsals -- --nocapture
+//! AZEL_SEED=1000 AZEL_CASES=7200 \
+//!   cargo test --release --test azel drawn_rehearsals -- --nocapture
 //! ```
 
 use std::{
@@ -30,10 +31,10 @@ use jiff::{Timestamp, ToSpan as _};
 
 use crate::common::dice::Dice;
 
-/// One-hour draws of the short form.
+/// Number of antennas that the short form rehearses, one hour each.
 const DEFAULT_CASES: u64 = 24;
 
-/// Satellites in low orbits: an antenna goes from one pass to the next.
+/// Elements of satellites in low orbits; an antenna tracks one pass after another.
 static ELEMENTS: LazyLock<Arc<Catalog>> = LazyLock::new(|| {
     let all = bundled().unwrap();
     let known = Station::default().favourites;
@@ -45,7 +46,7 @@ static ELEMENTS: LazyLock<Arc<Catalog>> = LazyLock::new(|| {
     Arc::new(catalog)
 });
 
-/// Draws a value, log-uniformly distributed.
+/// Draws a log-uniform value.
 fn logarithmic(dice: &mut Dice, from: f64, to: f64) -> f64 {
     from * (to / from).powf(dice.between(0.0, 1.0))
 }
@@ -80,7 +81,7 @@ fn az_el(dice: &mut Dice, (azimuth_from_deg, azimuth_to_deg): (f64, f64)) -> Mou
     Mount::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_from_deg: 0.0, elevation_to_deg }
 }
 
-/// An RC2000C whose counts cover the travel of its mount.
+/// Gives an RC2000C a calibration whose counts cover the travel of its mount.
 fn calibrated(mut antenna: Antenna, dice: &mut Dice) -> Antenna {
     let per_deg = [10.0, 20.0, 50.0][dice.below(3)];
     let points = |(from_deg, to_deg): (f64, f64)| {
@@ -130,14 +131,14 @@ fn antenna(dice: &mut Dice, sway_deg: f64) -> Antenna {
     }
 }
 
-/// Margin of a keep-out in which drives that overrun do not end up, degrees.
+/// Returns a keep-out margin larger than the overrun of the drives, at most 30 degrees.
 fn margin_deg(mechanics: &Mechanics, rate_deg_s: f64) -> f64 {
     let coasting_s = mechanics.coasting.map_or(1.0, |coasting| coasting.as_secs_f64());
     let overrun_deg = rate_deg_s * (coasting_s / 2.0 + mechanics.dead_time.as_secs_f64());
     (1.0 + overrun_deg).min(30.0)
 }
 
-/// Draws a keep-out that the antenna must go round, in a few cases.
+/// Draws a keep-out that the antenna must go round, in 3 % of the cases.
 fn keep_out(dice: &mut Dice, mechanics: &Mechanics, rate_deg_s: f64) -> Option<KeepOut> {
     let (at_deg, width_deg) = (dice.between(0.0, 330.0), dice.between(3.0, 30.0));
     let top_deg = dice.between(5.0, 40.0);
@@ -156,7 +157,7 @@ fn keep_out(dice: &mut Dice, mechanics: &Mechanics, rate_deg_s: f64) -> Option<K
     })
 }
 
-/// A park position outside the travel or within a keep-out of its own, and the rule to go there between
+/// Sets a park position outside the travel or within its own keep-out, and the rule to park between
 /// passes.
 fn park_out_of_reach(dice: &mut Dice, mechanics: &Mechanics, station: &mut Station) {
     let (is_covered, is_hard) = (dice.chance(0.5), dice.chance(0.5));
@@ -201,10 +202,10 @@ fn faults(dice: &mut Dice) -> Vec<Fault> {
     texts.iter().map(|text| text.parse().unwrap()).collect()
 }
 
-/// A drawn antenna.
+/// Rehearsal of a random antenna.
 struct Draw {
     rehearsal: Rehearsal,
-    /// The same with a park position in reach, if that of `rehearsal` is out of reach.
+    /// Same rehearsal with a reachable park position, if `rehearsal` has an unreachable one.
     with_usual_park: Option<Rehearsal>,
 }
 
@@ -223,7 +224,7 @@ fn draw(seed: u64) -> Draw {
     let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
     let minute = i64::try_from(dice.below(3 * 24 * 60)).unwrap();
     let faults = faults(dice);
-    // Drawn last, so that a seed draws the same antenna as ever.
+    // Draw this last: otherwise existing seeds would give other antennas.
     let is_park_out_of_reach = dice.chance(0.3);
     if is_park_out_of_reach {
         park_out_of_reach(dice, &mechanics, &mut station);
@@ -256,7 +257,7 @@ fn accusations(rehearsed: &Rehearsed) -> usize {
     rehearsed.interruptions.iter().filter(|line| accuses(&line.event)).count()
 }
 
-/// Passes that were tracked for some time at least.
+/// Counts the passes that the antenna tracked for any time.
 fn tracked(rehearsed: &Rehearsed) -> usize {
     rehearsed.passes.iter().filter(|pass| pass.got_s() > 0.0).count()
 }
@@ -317,18 +318,19 @@ fn untouched_antennas_report_no_foreign_motion() {
     assert!(is_alike, "{tracked_without_park} {tracked_with_park}");
 }
 
-/// The link of this drawn rotator is lost while it turns to 0°. It comes to rest there and reads 360°.
+/// The link of this drawn rotator is lost while it turns to 0°. The rotator comes to rest there and
+/// reads 360°.
 #[test]
 fn a_rotator_at_rest_that_reads_the_other_end_has_done_as_told() {
     let rehearsed = run(&draw(100_306).rehearsal, &|_| (), &|| false).unwrap();
     assert_eq!(rehearsed.interruptions, []);
 }
 
-/// This drawn antenna stands beside a keep-out while noise and gusts change what it reads.
+/// This drawn antenna stands beside a keep-out while noise and gusts change its readings.
 #[test]
 fn readings_that_change_beside_a_keep_out_are_no_motion_into_it() {
     let mut rehearsal = draw(100_162).rehearsal;
-    // Its passes were drawn without refraction.
+    // The passes of this seed were drawn without refraction.
     rehearsal.station.site = rehearsal.station.site.airless();
     let rehearsed = run(&rehearsal, &|_| (), &|| false).unwrap();
     assert_eq!(rehearsed.interruptions, []);

@@ -1,11 +1,11 @@
-//! Processor time of each turn of the sessions of three antennas. Nothing else runs on the
-//! driver's thread in a turn, not even a STOP of another antenna. A measurement:
+//! Processor time of each turn of the sessions of three antennas. During a turn, nothing else runs
+//! on the driver's thread, not even a STOP of another antenna. To measure:
 //!
 //! ```text
 //! AZEL_HOURS=24 cargo test --release --test azel driver_turns -- --nocapture
 //! ```
 //!
-//! Once at a usual station, and once with as many keep-outs and corners as a station may have.
+//! One measurement uses a typical station, the other the max number of keep-outs and corners.
 
 use std::{cell::RefCell, f64::consts::TAU, num::NonZeroU32, rc::Rc, time::Duration};
 
@@ -37,7 +37,7 @@ use crate::common::{
 
 /// Name of the element file on the Satrak.
 const FILE: &str = "stations.txt";
-/// Satellites on low orbits.
+/// Catalog numbers of satellites in low orbits.
 const NUMBERS: [u32; 6] = [43013, 25544, 37849, 25994, 27424, 49260];
 /// Elevation of AOS and LOS, degrees.
 const AOS_DEG: f64 = 10.0;
@@ -74,7 +74,7 @@ struct Event {
     los: Timestamp,
 }
 
-/// All passes from `from` on, one after the other without overlap.
+/// Returns all passes within `hours` after `from`, one after the other without overlap.
 fn timetable(from: Timestamp, hours: f64) -> Vec<Event> {
     let catalog = bundled().unwrap();
     let site = Station::default().site;
@@ -141,7 +141,7 @@ fn antennas(from: Timestamp, station: &Station, clock: &Clock) -> [Measured; 3] 
     ]
 }
 
-/// The antennas' work at one pass.
+/// Orders all antennas to track one pass.
 fn begin(antennas: &[Measured], event: &Event, station: &Station) {
     let target = Target::Satellite(Box::new(event.elements.clone()));
     let track = ProgramTrack::new(target, station.site, vec![(event.aos, event.los)]);
@@ -175,7 +175,7 @@ async fn until(antennas: &mut [Measured], clock: &Clock, at: Timestamp) {
     }
 }
 
-/// Two masts.
+/// Returns the keep-outs of a typical station: two masts.
 fn usual() -> Vec<KeepOut> {
     vec![
         mast(&[(80.0, 0.0), (100.0, 0.0), (100.0, 35.0), (80.0, 35.0)]),
@@ -183,7 +183,8 @@ fn usual() -> Vec<KeepOut> {
     ]
 }
 
-/// A ring of as many discs as a station may have; every other one is gone round.
+/// Returns a ring of as many discs as a station may have. Every other disc is hard; the antenna
+/// goes round the rest.
 fn most() -> Vec<KeepOut> {
     let corners = KeepOut::MAX_CORNERS_IN_ALL / KeepOut::MAX_NUMBER;
     let disc = |number: usize| {
@@ -199,7 +200,7 @@ fn most() -> Vec<KeepOut> {
     (0..KeepOut::MAX_NUMBER).map(disc).collect()
 }
 
-/// Looks at the ways to directions all round, as a pointer on the sky plot does.
+/// Previews the ways to directions all round, as a pointer on the sky plot does.
 async fn preview(antennas: &mut [Measured], clock: &Clock) {
     for azimuth_deg in (0..360).step_by(15) {
         let to = AzEl::from_degrees(f64::from(azimuth_deg), 30.0);

@@ -1,4 +1,5 @@
-//! Any bytes are harmless to every reader, and a bad object costs no other.
+//! Property tests of the readers: no bytes crash a reader, and a bad object does not hide the
+//! others.
 
 use azel::{
     astro::Site,
@@ -26,8 +27,8 @@ const FIELDS: [(&str, &str); 12] = [
     ("REV_AT_EPOCH", "1"),
 ];
 
-/// A form of elements: text before the objects, one object, text between two, text after
-/// them.
+/// File format of elements: text before the objects, one object, text between two objects, text
+/// after the last.
 #[derive(Debug, Clone)]
 struct Form {
     before: String,
@@ -66,7 +67,7 @@ fn forms() -> [Form; 5] {
     ]
 }
 
-/// A change to a text.
+/// Edit of a text at one place.
 #[derive(Debug, Clone)]
 enum Change {
     Insert(Vec<u8>),
@@ -76,7 +77,7 @@ enum Change {
 }
 
 fn changes() -> impl Strategy<Value = Vec<(prop::sample::Index, Change)>> {
-    // The characters of the forms are more frequent than other bytes.
+    // Draw the characters of the formats more often than other bytes.
     let telling = prop::sample::select(b"{}[]\",:\\<>/&;!=-+.\n\r\t 0129eE#ACZ\0\xff\xc3".to_vec());
     let byte = prop_oneof![3 => telling, 1 => any::<u8>()].boxed();
     let change = prop_oneof![
@@ -148,8 +149,8 @@ proptest! {
         let expected = read_element_bytes(&form.around(&[good])).elements.remove(0);
         let report = read_element_bytes(&bytes);
         prop_assert!(report.elements.len() >= 2, "{}", String::from_utf8_lossy(&bytes));
-        // A change may repeat both lines of a TLE: a list in which half of the sets have no name has
-        // headings in place of names.
+        // A change may repeat both lines of a TLE. If half of the sets have no name, the reader
+        // takes the names for headings.
         let unnamed = report.elements.iter().filter(|elements| elements.name().is_empty()).count();
         let has_headings = unnamed * 2 >= report.elements.len();
         let nameless = read_elements(&LINES[1..].join("\n")).elements.remove(0);
@@ -159,7 +160,7 @@ proptest! {
     }
 }
 
-/// Numbers of an orbit, and values that are not numbers.
+/// Draws a number in the range, or sometimes an extreme or arbitrary number.
 fn number(usual: std::ops::Range<f64>) -> impl Strategy<Value = f64> {
     let odd = [0.0, -0.0, 1e-300, 1e12, 1e17, 1e21, -1e21, 1e300, 359.999_999, 360.0, 180.0];
     prop_oneof![8 => usual, 1 => prop::sample::select(odd.to_vec()), 1 => any::<f64>()]

@@ -1,4 +1,4 @@
-//! Elements come back unchanged from every form.
+//! Round trips of elements through every file format.
 
 use std::io::Read as _;
 
@@ -88,7 +88,7 @@ fn a_number_that_no_tle_carries_is_handed_back() {
     assert_eq!(refused[0].reason, TleRefusalReason::CatalogNumber);
 }
 
-/// An OMM with any values that a set can have.
+/// Draws an OMM with any values that a set can have.
 fn any_set() -> impl Strategy<Value = String> {
     let angles = [-720.0..720.0_f64, -720.0..720.0, -720.0..720.0];
     let drag = (-1.0..1.0_f64, 1e-12..1.0_f64, 0.0..1e-6_f64);
@@ -150,7 +150,7 @@ proptest! {
             prop_assert!((read.eccentricity() - elements.eccentricity()).abs() <= 0.51e-7);
             let off_deg = (read.inclination() - elements.inclination()).degrees().abs();
             prop_assert!(off_deg <= 0.51e-4);
-            // Values that a TLE has carried once come back the same for ever.
+            // After one trip through a TLE, values no longer change.
             prop_assert_eq!(tle(&report.elements), text);
         }
     }

@@ -1,4 +1,4 @@
-//! Library against a real server on loopback.
+//! Element library tested against a real server on loopback.
 
 use std::{
     fs,
@@ -73,13 +73,13 @@ impl Server {
                         (format!("200 X\r\nContent-Length: {}", body.len() + 1), body)
                     }
                     Reply::Silence => {
-                        // Wait until the other side gives up.
+                        // Wait until the client gives up.
                         drop(reader.read_to_end(&mut Vec::new()));
                         continue;
                     }
                 };
                 let head = format!("HTTP/1.1 {head}\r\nConnection: close\r\n\r\n");
-                // The other side may have stopped reading: it reads no more than its limit.
+                // Ignore errors: the client stops reading at its size limit.
                 drop(stream.write_all(head.as_bytes()).and_then(|()| stream.write_all(&body)));
             }
         };
@@ -112,7 +112,7 @@ pub(crate) fn object(number: u32, day: u32) -> String {
     )
 }
 
-/// A set as `SatNOGS` DB lists it, under the number `listed`.
+/// Returns a set as `SatNOGS` DB lists it, under the number `listed`.
 fn satnogs(listed: u32) -> String {
     format!(
         r#"{{"tle0": "TESTSAT A",
@@ -126,7 +126,8 @@ pub(crate) fn start() -> Timestamp {
     "2026-08-12T12:00:00Z".parse().unwrap()
 }
 
-/// Refreshes once, then loads from a library opened anew.
+/// Refreshes a source once, then loads it from a library opened again. Returns the number of
+/// renewed sources and the report.
 fn refresh(
     folder: &Path,
     source: &Source,
@@ -178,9 +179,9 @@ fn an_answer_is_not_judged_by_one_of_its_sets() {
     };
     let server = Server::new(vec![
         ok("", &list(&[(5, 10), (6, 10), (7, 12)])),
-        // Two newer sets; the object with the newest one has left the list.
+        // Both sets are newer; object 7, which had the newest set, has left the list.
         ok("", &list(&[(5, 11), (6, 11)])),
-        // One newer set, two older ones.
+        // One set is newer and one is older. In the last list, both are older.
         ok("", &list(&[(5, 12), (6, 10)])),
         ok("", &list(&[(5, 10), (6, 10)])),
     ]);
@@ -289,7 +290,7 @@ fn whatever_goes_wrong_leaves_what_was_held() {
         let problem = report.fetch_problem.unwrap().to_string();
         assert!(problem.starts_with(text), "{problem}, not {text}");
     }
-    // An address where nobody listens any more.
+    // Address of a closed listener.
     let gone = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
     let source = Source {
         name: "gone".into(),
@@ -332,8 +333,8 @@ fn files_folders_and_servers_make_one_catalog() {
     assert_eq!(catalog.groups_of(5).collect::<Vec<_>>(), ["own", "sets"]);
     let counts: Vec<_> =
         reports.iter().map(|report| (report.objects(), report.refused())).collect();
-    // One entry of the folder is not an object. Elements older than the operator's own are no
-    // fault.
+    // One entry of the folder is not an object. Elements older than the operator's own are not
+    // refused.
     assert_eq!(counts, [(1, 0), (2, 1), (0, 0), (0, 0), (0, 0)]);
     let older = |report: &SourceReport| report.files.iter().map(|file| file.merge.older).sum();
     assert_eq!(reports.iter().map(older).collect::<Vec<usize>>(), [0, 1, 0, 0, 0]);

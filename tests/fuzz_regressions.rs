@@ -1,5 +1,5 @@
-//! Findings and seeds of fuzzing are harmless: tested without a nightly toolchain, by the
-//! same functions as in `fuzz/targets`.
+//! Findings and seeds of fuzzing, tested without a nightly toolchain by the same functions as in
+//! `fuzz/targets`.
 
 use std::{
     fs, io,
@@ -12,8 +12,8 @@ use crate::common::dice::Dice;
 #[path = "fuzz/entry/all.rs"]
 mod entry;
 
-/// Feeds every file of every folder of `kind` to its function; there must be at least one,
-/// and all must be harmless.
+/// Feeds every file of every folder of `kind` to its function. Fails if there is no file, or if a
+/// file is harmful.
 fn harmless(kind: &str) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz").join(kind);
     let mut fed = 0;
@@ -33,7 +33,7 @@ fn harmless(kind: &str) {
     assert!(fed > 0 && harmful.is_empty(), "{harmful:?} of {fed}");
 }
 
-/// Entries of a folder, with their names.
+/// Returns the entries of a folder, sorted, with their names.
 fn entries(folder: &Path) -> Vec<(PathBuf, String)> {
     let entry = |entry: io::Result<fs::DirEntry>| {
         let entry = entry.unwrap();
@@ -54,11 +54,11 @@ fn what_fuzzing_starts_from_is_harmless() {
     harmless("seeds");
 }
 
-/// Values that hardly any setting takes.
+/// Values that almost every setting rejects.
 const ODD: [&str; 8] =
     ["'five'", "-1e9", "[]", "[1, 'x']", "{ a = 1 }", "true", "''", "[{ b = 2 }]"];
 
-/// The station files from which fuzzing starts, with odd values and names in random places.
+/// Station files from which fuzzing starts, with odd values and names in random places.
 #[test]
 fn any_damaged_station_file_keeps_what_it_cannot_use() {
     let (_, run) = entry::ALL.into_iter().find(|(target, _)| *target == "station").unwrap();

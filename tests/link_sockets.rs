@@ -1,4 +1,4 @@
-//! Tests of links over real sockets: a unit, a stranger, and nobody.
+//! Tests of links over real sockets: to a unit, to another server, and to a port without a server.
 
 use std::{
     io::{Read as _, Write as _},

@@ -1,5 +1,5 @@
-//! Tests of links before a station has the unit: a station in memory asks, and the simulated
-//! units tell what they were sent.
+//! Link tests of units that no antenna has yet. A station in memory runs the tests, and simulated
+//! units record the requests that they receive.
 
 use std::{
     io,
@@ -31,7 +31,7 @@ use tokio::io::AsyncWriteExt as _;
 
 use crate::common::comes_back;
 
-/// Longer than any step here takes.
+/// Time limit of any wait in these tests.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// One unit of each make in memory, and strangers at the addresses that name them.
@@ -91,7 +91,7 @@ impl Units {
     }
 }
 
-/// A running station without antennas, on these units.
+/// Running station on these units.
 struct Bench {
     station: Handle,
     units: Units,
@@ -104,7 +104,7 @@ impl Bench {
         Self::claiming_in(None, antennas)
     }
 
-    /// With the folder in which it claims its units.
+    /// Starts a station that claims its units in the folder `claims`.
     fn claiming_in(claims: Option<&Path>, antennas: Vec<Antenna>) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("station.toml");
@@ -197,7 +197,7 @@ fn a_unit_that_knows_its_place_tells_it() {
 
 #[test]
 fn what_is_no_unit_is_told_apart() {
-    // Each make at once: what is silent is waited for.
+    // Test all makes at once, because a silent peer costs the whole timeout.
     std::thread::scope(|scope| {
         for spec in SPECS {
             scope.spawn(move || {
@@ -233,14 +233,15 @@ fn a_unit_of_this_station_is_not_dialled_a_second_time() {
 fn a_unit_of_another_azel_is_not_dialled() {
     let claims = tempfile::tempdir().unwrap();
     let spec = SPECS[0];
-    // Locks are of the whole machine, on which other tests run.
+    // Locks apply to the whole machine, on which other tests run, so these names contain the
+    // process id.
     let [one, two] = ["one", "two"].map(|unit| format!("{unit}-{}:1", std::process::id()));
     let holder = Bench::claiming_in(Some(claims.path()), vec![spec.antenna("Dish", &one)]);
     let mut bench = Bench::claiming_in(Some(claims.path()), Vec::new());
     let LinkTestStage::Elsewhere(by) = bench.test(&antenna(spec, &one)) else { panic!("not held") };
     assert!(by.to_string().starts_with("azel serve"), "{by}");
     assert!(bench.units.dish.received().is_empty());
-    // After a test the unit is free for others.
+    // After a test, the unit is free for others.
     let LinkTestStage::Done { .. } = bench.test(&antenna(spec, &two)) else { panic!("not tested") };
     let mut other = Bench::claiming_in(Some(claims.path()), Vec::new());
     let LinkTestStage::Done { .. } = other.test(&antenna(spec, &two)) else {

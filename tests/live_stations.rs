@@ -23,7 +23,7 @@ use crate::units::{Units, antenna, measured, start, station, until};
 
 /// Speed, in multiples of real time.
 const FAST: NonZeroU32 = NonZeroU32::new(200).unwrap();
-/// Longer than a test here takes.
+/// Time limit of any wait in these tests.
 const PATIENCE: Duration = Duration::from_mins(5);
 
 struct Live {
@@ -31,7 +31,7 @@ struct Live {
     units: Units,
 }
 
-/// A station and the folder of its files.
+/// Starts a station. Returns it with the folder of its files.
 fn begun(speed: NonZeroU32, wake: azel::job::Wake) -> (Live, tempfile::TempDir) {
     let clock = Clock::at_speed(start(), speed);
     let units = Units::new(&clock);
@@ -48,8 +48,8 @@ fn passed_s(client: &Client) -> f64 {
     seconds_between(start(), client.now().utc)
 }
 
-/// Sends `command` until the antenna is seen to move: in a live station at speed, a busy computer
-/// may act on it too late.
+/// Repeats `command` until the antenna moves. On an accelerated clock, a busy computer may act on a
+/// single command too late.
 async fn move_by(client: &Client, name: &str, command: &driver::Command) {
     let id = measured(client, name).await;
     let moved = || {
@@ -86,7 +86,7 @@ async fn two_stations() {
     until("standstill", || fast.units.all_stand().then_some(())).await;
 }
 
-/// In the main loop of the program, in real time.
+/// The station runs in the main loop of the program, in real time.
 #[tokio::test]
 async fn a_served_station_ends_when_its_antennas_are_proved_to_stand() {
     let (end, woken) = mpsc::sync_channel(1);

@@ -24,7 +24,7 @@ fn clearance_deg(propagator: &Propagator, mask: &HorizonMask, at: Timestamp) -> 
     direction.elevation_deg() - mask.elevation_at(direction.azimuth).degrees()
 }
 
-/// A low level with walls from 0.02 to 1 degree wide, steep as a house.
+/// Returns a low mask with steep walls from 0.02 to 1 degree wide.
 fn walls() -> HorizonMask {
     let mut points = Vec::new();
     for index in 0..36 {
@@ -51,7 +51,7 @@ fn check(propagator: &Propagator, mask: &HorizonMask, pass: &Pass, grid_s: f64) 
         let is_within =
             stretches.iter().any(|stretch| (stretch.aos.time..=stretch.los.time).contains(&at));
         let clear_deg = clearance_deg(propagator, mask, at);
-        // Steep walls: a millisecond is worth some hundredths of a degree.
+        // At steep walls, a millisecond changes the clearance by some hundredths of a degree.
         let near =
             |offset_s| clearance_deg(propagator, mask, time::add_seconds(at, offset_s)) > 0.0;
         let is_edge = near(-1e-3) != near(1e-3) || clear_deg.abs() < 1e-4;

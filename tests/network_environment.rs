@@ -25,7 +25,7 @@ use rustls::{
     pki_types::{CertificateDer, PrivateKeyDer, pem::PemObject as _},
 };
 
-/// Longer than any step here takes.
+/// Time limit of any wait in these tests.
 const PATIENCE: Duration = Duration::from_mins(2);
 /// Pause between two looks at the library of the program.
 const LOOK: Duration = Duration::from_millis(50);
@@ -68,7 +68,7 @@ fn tls() -> Arc<ServerConfig> {
     Arc::new(config.unwrap())
 }
 
-/// Reads lines up to an empty one, without a byte of what follows.
+/// Reads lines up to an empty one, and no byte after it.
 fn head(stream: &mut impl io::Read) -> io::Result<String> {
     let mut text = Vec::new();
     while !text.ends_with(b"\r\n\r\n") {
@@ -99,7 +99,7 @@ fn serve_elements() -> u16 {
     };
     spawn("elements", move || {
         for stream in listener.incoming().map_while(Result::ok) {
-            // A client that trusts nobody leaves early.
+            // Ignore errors: a client that rejects the certificate leaves early.
             let _ = answer(stream);
         }
     });
@@ -109,7 +109,7 @@ fn serve_elements() -> u16 {
 /// A proxy that leads every connection to one port of this computer.
 struct Proxy {
     port: u16,
-    /// Targets that clients named, as `host:port`.
+    /// Targets that clients named, in the form `host:port`.
     targets: mpsc::Receiver<String>,
 }
 
@@ -131,7 +131,7 @@ impl Proxy {
         };
         spawn("proxy", move || {
             for stream in listener.incoming().map_while(Result::ok) {
-                // A client may leave at any time.
+                // Ignore errors: a client may leave at any time.
                 let _ = lead(stream);
             }
         });
@@ -155,8 +155,8 @@ fn refused(why: &str) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidData, why)
 }
 
-/// The SOCKS5 server without log-in, RFC 1928: greeting in section 3, request in section 4, reply
-/// in section 6.
+/// Accepts a SOCKS5 client without log-in and returns its target. RFC 1928 has the greeting in
+/// section 3, the request in section 4 and the reply in section 6.
 fn socks5(stream: &mut TcpStream) -> io::Result<String> {
     let mut greeting = [0; 2];
     stream.read_exact(&mut greeting)?;
@@ -190,7 +190,7 @@ fn socks5(stream: &mut TcpStream) -> io::Result<String> {
     Ok(format!("{host}:{}", u16::from_be_bytes(port)))
 }
 
-/// The method CONNECT, RFC 9110, section 9.3.6.
+/// Accepts a CONNECT request (RFC 9110, section 9.3.6) and returns its target.
 fn http_connect(stream: &mut TcpStream) -> io::Result<String> {
     let head = head(stream)?;
     let target = head.strip_prefix("CONNECT ").and_then(|rest| rest.split(' ').next());
@@ -199,19 +199,19 @@ fn http_connect(stream: &mut TcpStream) -> io::Result<String> {
     Ok(target)
 }
 
-/// Ends the program with the test.
+/// Running program, which ends with the test.
 struct Program(Child);
 
 impl Drop for Program {
     fn drop(&mut self) {
-        // It may have ended already.
+        // The program may have ended already.
         let _ = self.0.kill();
         let _ = self.0.wait();
     }
 }
 
-/// Runs `azel serve` with `environment` on a station with one source, until its server was asked.
-/// Returns the number of objects.
+/// Runs `azel serve` with `environment` on a station with one source, until the program has asked
+/// the source's server. Returns the number of objects.
 fn fetched(url: &str, environment: &[(&str, &str)]) -> Result<usize, FetchProblem> {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("station.toml");
@@ -228,7 +228,7 @@ fn fetched(url: &str, environment: &[(&str, &str)]) -> Result<usize, FetchProble
         .env("XDG_RUNTIME_DIR", folder.path().join("runtime"))
         .env("XDG_DATA_HOME", folder.path().join("data"))
         .env("XDG_CONFIG_HOME", folder.path().join("config"))
-        // Alarms of a test neither show nor sound on the desktop of its user.
+        // Keep the alarms of a test from the desktop and the speakers of its user.
         .env("DBUS_SESSION_BUS_ADDRESS", "unix:path=/nowhere")
         .env("PATH", "")
         .envs(environment.iter().copied())
@@ -266,8 +266,8 @@ fn a_socks_proxy_leads_to_other_computers() {
     let server = serve_elements();
     let proxy = Proxy::socks(server);
     let authority = authority();
-    // Azel looks up names itself for SOCKS5, and leaves them to the proxy for SOCKS5h. The address is
-    // one of documents (RFC 5737), which no network reaches.
+    // Azel looks up names itself for SOCKS5, and leaves them to the proxy for SOCKS5h. RFC 5737
+    // reserves the address for documents, so no network reaches it.
     for (scheme, host) in [("socks5", "192.0.2.7"), ("socks5h", "elements.example")] {
         let url = format!("https://{host}:{server}/own.json");
         let address = format!("{scheme}://127.0.0.1:{}", proxy.port);
@@ -291,8 +291,8 @@ fn an_http_proxy_leads_to_other_computers() {
     }
 }
 
-/// Azel takes 0.0.0.0 for another computer, and Linux connects it to this one: no name server is
-/// needed.
+/// Azel takes 0.0.0.0 for another computer, and Linux connects it to this one. The test therefore
+/// needs no name server.
 #[cfg(target_os = "linux")]
 #[test]
 fn no_proxy_names_hosts_that_are_reached_without_one() {
@@ -312,7 +312,7 @@ fn no_proxy_names_hosts_that_are_reached_without_one() {
 
 #[test]
 fn a_proxy_that_does_not_answer_is_named_without_its_log_in() {
-    // Nobody listens on the first port.
+    // No proxy listens on port 1.
     let environment = [("ALL_PROXY", "http://op:word@127.0.0.1:1")];
     let problem = fetched("https://elements.example/own.json", &environment).unwrap_err();
     let FetchProblem::Unreachable(why) = &problem else { panic!("{problem}") };
@@ -332,7 +332,7 @@ fn a_server_on_this_computer_is_reached_without_a_proxy() {
     assert!(proxy.targets().is_empty());
 }
 
-/// Tells the process of a test the port of its FTP server.
+/// Environment variable with the port of the FTP server, for the child process of a test.
 const FTP_PORT: &str = "AZEL_TEST_FTP_PORT";
 
 /// Starts an FTP server that wants TLS (RFC 4217) and refuses every log-in. Returns its port.
@@ -361,14 +361,14 @@ fn serve_ftp() -> u16 {
     };
     spawn("ftp", move || {
         for stream in listener.incoming().map_while(Result::ok) {
-            // A client that trusts nobody leaves early.
+            // Ignore errors: a client that rejects the certificate leaves early.
             let _ = answer(stream);
         }
     });
     port
 }
 
-/// The authorities are read once in each process, so a process of its own fetches.
+/// Each process reads the authorities only once, so the test fetches in a child process.
 #[test]
 fn ftp_with_tls_trusts_the_authorities_of_ssl_cert_file() {
     if let Ok(port) = std::env::var(FTP_PORT) {

@@ -1,4 +1,4 @@
-//! Programs that point antennas through their ports: who is in control, what moves, and what ends.
+//! Programs that point antennas through their ports: control, motions and their ends.
 
 use std::{net::SocketAddr, time::Duration};
 
@@ -121,7 +121,7 @@ impl Program {
         self.stream.write_all(format!("{line}\n").as_bytes()).await.unwrap();
     }
 
-    /// The answer to a line, which comes in one piece.
+    /// Sends a line and returns the answer, which arrives in one piece.
     async fn ask(&mut self, line: &str) -> String {
         self.tell(line).await;
         let mut buffer = [0; 1024];
@@ -225,7 +225,7 @@ async fn a_turn_ends_when_its_program_is_silent() {
 async fn the_stop_of_a_program_ends_its_own_motion_only() {
     let stage = Stage::new("Dish").await;
     let mut program = Program::connect(&stage, 5001).await;
-    // The operator moves the antenna; a program that watches hangs up, as Gpredict does.
+    // The operator moves the antenna. A program that only watches hangs up, as Gpredict does.
     let to = |deg| Some(Angle::from_degrees(deg));
     stage.order(driver::Command::Position { azimuth: to(250.0), elevation: to(40.0) });
     stage.moves().await;
@@ -234,7 +234,7 @@ async fn the_stop_of_a_program_ends_its_own_motion_only() {
     assert!(!stage.stands());
     assert_eq!(stage.antenna().control.clients.first().unwrap().ignored_stops, 1);
     stage.arrives(250.0, 40.0).await;
-    // The program's own motion.
+    // Now the program itself moves the antenna.
     stage.hand_over(&program).await;
     assert_eq!(program.ask("P 100 40").await, "RPRT 0\n");
     stage.moves().await;
@@ -279,7 +279,7 @@ async fn automatic_operation_leaves_the_antenna_to_no_program() {
     assert_eq!(program.ask("S").await, "RPRT 0\n");
     assert_eq!(stage.party(), Some(Party::Automatic));
     assert!(stage.antenna().operation.is_on());
-    // Handing it over suspends automatic operation.
+    // Handing the antenna over suspends automatic operation.
     stage.hand_over(&program).await;
     assert!(!stage.antenna().operation.is_on());
     assert_eq!(program.ask("P 250 40").await, "RPRT 0\n");
@@ -337,7 +337,7 @@ async fn questions_are_answered_for_everybody() {
         assert_eq!(program.ask(line).await, "RPRT -1\n", "{line}");
     }
     assert_eq!(program.ask("M 8 50").await, "RPRT -11\n", "an X/Y mount has no azimuth axis");
-    // Without a link nothing is known.
+    // Without a link, the position is unknown.
     stage.order(driver::Command::Disconnect);
     until("no link", || (!stage.antenna().snapshot.link.is_open()).then_some(())).await;
     assert_eq!(program.ask("p").await, "RPRT -5\n");
@@ -354,7 +354,7 @@ async fn a_program_that_hangs_up_leaves_the_list() {
     until("an empty list", || stage.antenna().control.clients.is_empty().then_some(())).await;
 }
 
-/// What happens next to the antenna.
+/// Random step of a contention for the antenna.
 #[derive(Debug, Clone, Copy)]
 enum Happening {
     Connects(usize),
@@ -393,8 +393,8 @@ fn happening(dice: &mut Dice) -> Happening {
     }
 }
 
-/// Parties take the antenna from each other at random. A motion is accepted only from the party in
-/// control, STOP wins, and no turn outlives the control of its program.
+/// Lets parties take the antenna from each other at random. Checks that only the party in control
+/// moves it, that STOP wins, and that no turn outlives the control of its program.
 async fn is_contended(mut dice: Dice) {
     let stage = Stage::new("Mast").await;
     let mut programs: [Option<Program>; PROGRAMS] = [None, None, None];
@@ -480,7 +480,8 @@ async fn is_contended(mut dice: Dice) {
     }
 }
 
-/// `AZEL_SEED=1 AZEL_CASES=1000 cargo test --test azel network_ports::parties` draws more.
+/// Draw more cases with `AZEL_SEED=1 AZEL_CASES=1000 cargo test --test azel
+/// network_ports::parties`.
 #[test]
 fn parties_that_contend_for_an_antenna_never_have_it_at_once() {
     for_each_case("parties contend", 6, is_contended);

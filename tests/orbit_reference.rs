@@ -116,8 +116,8 @@ fn states_and_directions_agree_with_skyfield() {
     assert!(worst.iter().zip(allowed).all(|(worst, allowed)| *worst < allowed), "{worst:?}");
 }
 
-/// Error in time of `point`, in seconds. Zero where the elevation changes so slowly that
-/// the time says little, and the elevation is right within 0.000 02 degrees.
+/// Returns the time error of `point`, seconds. The result is zero if the elevation changes slowly
+/// and is right within 0.000 02 degrees, because the time then says little.
 fn off_s(propagator: &Propagator, site: Site, point: PassPoint, expected: Timestamp) -> f64 {
     let elevation = |at| propagator.look_from(site, at).unwrap().direction.elevation_deg();
     let rate_deg_s =
@@ -164,7 +164,8 @@ fn passes_agree_with_skyfield() {
                 }
                 worst_deg =
                     worst_deg.max((found.max_elevation().degrees() - expected.max_el).abs());
-                // The top of a long pass is flat: there the elevation is checked above.
+                // The top of a long pass is flat, so the test checks its elevation above instead of
+                // its time.
                 if found.duration_s() < 1800.0 {
                     let off = time::seconds_between(at(expected.tca_s), tca.time).abs();
                     worst_tca_s = worst_tca_s.max(off);
@@ -186,7 +187,7 @@ struct Ray {
     geometric_at_400_km_deg: f64,
 }
 
-/// Dry air at sea level with this refractivity, by its pressure and temperature.
+/// Returns dry air at sea level with this refractivity, by its pressure and temperature.
 fn dry_air(sea_level_n: f64) -> Refraction {
     let temperature_c = if sea_level_n > 300.0 { -60.0 } else { 15.0 };
     let pressure_hpa = sea_level_n * (temperature_c + 273.15) / 77.6;
@@ -224,7 +225,7 @@ fn refraction_agrees_with_traced_rays() {
     );
     assert!(rays > 150, "{rays}");
     assert!(worst_deg < 1e-5, "{worst_deg}");
-    // A satellite so near is seen before the ray is as straight as that of one far away.
+    // The ray from a satellite at 400 km ends where refraction still bends it.
     assert!(
         worst_near_deg < 0.1 && worst_near_5_deg < 0.015,
         "{worst_near_deg} {worst_near_5_deg}"

@@ -1,6 +1,5 @@
-//! A STOP that is owed belongs to the unit: whatever happens to the antenna in the
-//! settings, the STOP goes out first on the next link. Real sockets, with a relay between
-//! them that can be cut.
+//! Owed STOPs of a unit. After any change to the antenna in the settings, the STOP goes out first
+//! on the next link. The tests use real sockets and a relay that cuts the link.
 
 use std::{
     net::SocketAddr,
@@ -26,10 +25,10 @@ use tokio::{
     sync::watch,
 };
 
-/// Longer than any step here takes.
+/// Time limit of any wait in these tests.
 const PATIENCE: Duration = Duration::from_secs(30);
-/// Dials after which a program that tries to deliver its STOP at closing has given up: an
-/// owed link is dialled four times a second.
+/// Number of dials after which a closing program has given up delivering its STOP. Azel dials four
+/// times a second while it owes a STOP.
 const MANY_DIALS: u32 = 16;
 
 /// A simulated unit behind a relay.
@@ -102,7 +101,7 @@ impl Scene {
         let since = Instant::now();
         while !is_so(&handle.snapshot()) {
             assert!(since.elapsed() < PATIENCE, "not in time: {what} {:?}", handle.snapshot());
-            // A change may have come before this look.
+            // The change may have come before this wait.
             let _ = self.woken.recv_timeout(Duration::from_millis(50));
         }
     }
@@ -137,7 +136,8 @@ impl Scene {
         });
     }
 
-    /// Orders that the unit has received after its first `before` frames, without questions.
+    /// Returns the orders that the unit has received after its first `before` frames, without
+    /// questions.
     fn orders_since(&self, before: usize) -> Vec<String> {
         let received = self.control.received().into_iter().skip(before);
         received.map(|(_, frame)| frame).filter(|frame| !frame.contains('?')).collect()
@@ -146,7 +146,7 @@ impl Scene {
 
 async fn copy(mut near: TcpStream, unit: SocketAddr) {
     if let Ok(mut far) = TcpStream::connect(unit).await {
-        // An error is a broken link.
+        // Ignore errors: they mean a broken link.
         let _ = tokio::io::copy_bidirectional(&mut near, &mut far).await;
     }
 }
@@ -221,13 +221,13 @@ fn a_mark_of_an_earlier_run_makes_stop_the_first_word() {
     let scene = Scene::start();
     let handle = scene.open(&scene.antenna());
     scene.cut_in_a_jog(&handle);
-    // As if that program had ended: only its mark is left.
+    // Simulate the end of that program, which leaves only its mark.
     let left = std::fs::read_dir(scene.marks.path()).unwrap().next().unwrap().unwrap();
     let mark = std::fs::read(left.path()).unwrap();
     drop(handle);
     scene.is_cut.send(false).unwrap();
     let since = Instant::now();
-    // The mark goes after the debt, on a thread of its own.
+    // A separate thread removes the mark after the debt.
     let is_marked = || scene.marks.path().read_dir().unwrap().count() > 0;
     while is_marked() || !scene.driver.debts().units().is_empty() {
         assert!(since.elapsed() < PATIENCE);

@@ -1,10 +1,8 @@
-//! Pass search against brute force: the same propagator sampled every second, with
-//! crossings by bisection. No pass is missed or invented; times and elevations are as
-//! promised.
+//! Pass search against brute force: the same propagator sampled every second, with crossings by
+//! bisection. The search neither misses nor invents a pass; times and elevations are as promised.
 //!
-//! The test draws satellites of every kind. `AZEL_DRAW` in the environment sets how many
-//! (and a whole day instead of some hours), `AZEL_ELEMENTS` names a folder with more TLE
-//! files to draw from.
+//! The test draws satellites of every kind. `AZEL_DRAW` in the environment sets their number, and a
+//! whole day instead of some hours. `AZEL_ELEMENTS` names a folder with more TLE files.
 
 use azel::{
     astro::{Angle, Site, time},
@@ -18,17 +16,17 @@ const DEFAULT_HOURS: f64 = 5.0;
 const GRID_S: f64 = 1.0;
 const MAX_OFF_S: f64 = 0.01;
 const MAX_OFF_DEG: f64 = 1e-4;
-/// Rate below which the elevation itself is compared instead of its time, degrees per
-/// second.
+/// Rate of elevation below which the test compares elevations instead of times, degrees per second.
 const SLOW_DEG_S: f64 = 0.002;
 
-/// Sites at three latitudes.
+/// Returns sites at three latitudes.
 fn sites() -> [Site; 3] {
     [(41.02, 29.17, 100.0), (-0.2, -78.5, 2800.0), (78.23, 15.4, 450.0)]
         .map(|(latitude, longitude, altitude)| Site::new(latitude, longitude, altitude).unwrap())
 }
 
-/// An even draw, and as many again of the rare kinds.
+/// Returns an even draw of all satellites, an equal number of the rare kinds, and some known
+/// orbits.
 fn drawn(draw: usize) -> Vec<Elements> {
     let catalog = bundled().unwrap();
     let mut all: Vec<Elements> = catalog.iter().cloned().collect();
@@ -51,13 +49,13 @@ fn drawn(draw: usize) -> Vec<Elements> {
     };
     let mut chosen = every(all.iter().collect(), draw / 2);
     chosen.extend(every(all.iter().filter(rare).collect(), draw / 2));
-    // A Molniya, a transfer orbit, a geostationary one, one far out.
+    // A Molniya orbit, a transfer orbit, a geostationary orbit, and one far out.
     let known = [40_296, 25_867, 54_743, 43_435].map(|number| catalog.get(number).cloned());
     chosen.extend(known.into_iter().flatten());
     chosen
 }
 
-/// Elevation in degrees, by seconds from the start; `None` without a state.
+/// Sky of one satellite: elevation in degrees, by seconds from the start; `None` without a state.
 struct Sky {
     propagator: Propagator,
     site: Site,
@@ -97,7 +95,7 @@ struct Stay {
     highest_deg: f64,
 }
 
-/// Stays above the horizon on a grid of elevations.
+/// Returns the stays above the horizon on a grid of elevations.
 fn stays(sky: &Sky, grid: &[f64], horizon_deg: f64, length_s: f64) -> Vec<Stay> {
     let mut found: Vec<Stay> = Vec::new();
     let mut last_up = false;
@@ -141,7 +139,7 @@ fn refine_top(sky: &Sky, stay: &mut Stay) {
     stay.highest_deg = sky.elevation_deg(stay.highest_s).unwrap();
 }
 
-/// Faults of the found passes.
+/// Returns the faults of the found passes.
 fn faults(sky: &Sky, found: &[Pass], expected: &[Stay]) -> Vec<String> {
     let seconds = |at: Timestamp| time::seconds_between(sky.from, at);
     let mut faults = Vec::new();

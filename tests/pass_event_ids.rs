@@ -1,5 +1,5 @@
-//! Events of a calendar keep their identity when the elements are those of the next day,
-//! the site is measured anew or the window moves, and no two events share one.
+//! Identity of the events in a calendar. Events keep it with the elements of the next day, a newly
+//! measured site or a moved window, and no two events share one.
 //!
 //! `AZEL_EVENT_STRIDE=1` takes the whole bundled catalog instead of every 16th object:
 //! `AZEL_EVENT_STRIDE=1 cargo test --release --test azel pass_event_ids -- --nocapture`.
@@ -18,7 +18,7 @@ use crate::common::dice::Dice;
 
 const STRIDE: usize = 16;
 const SEED: u64 = 20_260_812;
-/// Gravity of the Earth, km³/s².
+/// Gravitational parameter of the Earth, km³/s².
 const GRAVITY_KM3_S2: f64 = 398_600.8;
 
 /// A calendar: pass and identity of each event, by satellite.
@@ -68,7 +68,7 @@ fn calendar(elements: &[Elements], query: &PassQuery) -> Calendar {
     Calendar { events: events.collect() }
 }
 
-/// Number of passes of `before` that are also in `after`, and of those with the same
+/// Counts the passes of `before` that are also in `after`, and those of them with the same
 /// identity.
 fn kept(before: &Calendar, after: &Calendar) -> (usize, usize) {
     let mut by_number: BTreeMap<u32, Vec<(&Pass, &str)>> = BTreeMap::new();
@@ -91,8 +91,8 @@ fn kept(before: &Calendar, after: &Calendar) -> (usize, usize) {
     (all, kept)
 }
 
-/// Elements that a forecast of the next day could have: 35 m to 2 km off along the track,
-/// and a mean motion that differs by a ten-millionth.
+/// Returns elements as of the next day: 35 m to 2 km off along the track, with a mean motion that
+/// differs by a ten-millionth.
 fn renewed(elements: &[Elements]) -> Vec<Elements> {
     let mut text = Vec::new();
     write_omm_json(elements, &mut text).unwrap();
@@ -114,7 +114,7 @@ fn renewed(elements: &[Elements]) -> Vec<Elements> {
     report.elements
 }
 
-/// Checks that at least 99.9 % keep their identity, and prints how many do.
+/// Checks that at least 99.9 % of the events keep their identity, and prints the number.
 fn check(what: &str, before: &Calendar, after: &Calendar) {
     let (all, kept) = kept(before, after);
     println!("{what}: {kept} of {all} kept their identity (seed {SEED})");
@@ -131,7 +131,7 @@ fn an_event_keeps_its_identity_whatever_moves_a_little() {
     check("elements of the next day", &before, &{
         calendar(&renewed(&elements), &query(site, start(), 24.0))
     });
-    // Moved 10 m to the north-east.
+    // The site moves 10 m to the north-east.
     let moved = Site::new(41.02 + 6.4e-5, 29.17 + 8.4e-5, 100.0).unwrap();
     check("site moved by 10 m", &before, &calendar(&elements, &query(moved, start(), 24.0)));
     let later = query(site, time::add_seconds(start(), 5.0 * 3600.0), 24.0);
@@ -153,7 +153,7 @@ fn a_stretch_over_a_mask_keeps_its_identity_too() {
     let after = calendar(&renewed(&elements), &masked(0.0));
     let (all, kept) = kept(&before, &after);
     println!("masked, elements of the next day: {kept} of {all}");
-    // A stretch that just clears a corner comes and goes, which renumbers those behind it.
+    // A stretch that just clears a corner comes and goes, which renumbers the later stretches.
     assert!(kept as f64 >= 0.99 * all as f64, "{kept} of {all}");
 }
 

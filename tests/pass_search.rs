@@ -7,10 +7,10 @@ use azel::{
 use jiff::Timestamp;
 use proptest::prelude::*;
 
-/// Distance from the horizon within which either side is right, degrees.
+/// Tolerance at the horizon, degrees: within it, up and down are both right.
 const LEVEL_DEG: f64 = 1e-4;
 
-/// Times at which the passes differ from samples taken every `step_s`.
+/// Returns the times at which the passes differ from samples taken every `step_s`.
 fn differences(
     propagator: &Propagator,
     elements: &Elements,
@@ -38,7 +38,7 @@ fn differences(
     differences
 }
 
-/// A choice of the round orbits, which resemble each other, and all eccentric ones.
+/// Returns some of the round orbits, which resemble each other, and all eccentric ones.
 fn chosen(catalog: &azel::orbit::Catalog) -> Vec<&Elements> {
     catalog
         .iter()
@@ -91,7 +91,7 @@ fn an_orbit_against_the_turn_of_the_earth_loses_no_pass() {
     }
 }
 
-/// Any orbit whose perigee clears the ground, or nearly.
+/// Draws any orbit whose perigee clears or nearly clears the ground.
 fn any_elements() -> impl Strategy<Value = Elements> {
     let round = prop_oneof![Just(0.0), 0.0..0.002_f64, 0.0..0.06_f64];
     let low = (11.0..16.5_f64, round.clone());
@@ -136,7 +136,7 @@ fn any_search() -> impl Strategy<Value = PassSearch> {
     )
 }
 
-/// As many cases as `PROPTEST_CASES` says, or few enough for a slow build.
+/// Returns the number of cases from `PROPTEST_CASES`, or a default that suits a slow build.
 fn cases() -> ProptestConfig {
     let asked = std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok());
     ProptestConfig {
@@ -146,8 +146,8 @@ fn cases() -> ProptestConfig {
     }
 }
 
-/// Returns `true` if the velocities of SGP4 agree with the change of its positions. They do not far
-/// from the epoch, or with a drag that ends the orbit in days.
+/// Returns `true` if the velocities of SGP4 agree with the change of its positions. They disagree
+/// far from the epoch, or with a drag that ends the orbit in days.
 fn is_an_orbit(propagator: &Propagator, search: &PassSearch) -> bool {
     let length_s = time::seconds_between(search.start, search.end);
     (0..=200).all(|index| {

@@ -31,7 +31,7 @@ fn command(place_and_time: &[&str], arguments: &[&str]) -> Command {
 /// Runs `azel passes` on elements given on standard input.
 fn passes(elements: &str, arguments: &[&str]) -> Output {
     let mut child = command(&[&SITE[..], &WINDOW].concat(), arguments).spawn().unwrap();
-    // An error is ignored: the program may have ended over its arguments.
+    // Ignore errors: the program may have ended because of its arguments.
     let _ = child.stdin.take().unwrap().write_all(elements.as_bytes());
     child.wait_with_output().unwrap()
 }
@@ -44,7 +44,7 @@ fn reference() -> Value {
     serde_json::from_str(include_str!("data/reference_passes.json")).unwrap()
 }
 
-/// All sets of the reference as TLE.
+/// Returns all sets of the reference as TLE.
 fn reference_elements() -> String {
     let sets = reference()["satellites"].clone();
     let line = |set: &Value, key: &str| set[key].as_str().unwrap().to_owned();
@@ -117,7 +117,7 @@ fn a_mask_cuts_a_pass_into_its_clear_stretches() {
     }
 }
 
-/// An object as OMM, with other values for some fields.
+/// Returns an object as OMM, with other values for some fields.
 fn object(values: &[(&str, Value)]) -> Value {
     let mut object = serde_json::json!({
         "OBJECT_NAME": "SMALLSAT", "NORAD_CAT_ID": 5, "EPOCH": "2026-08-12T00:00:00",
@@ -152,7 +152,7 @@ impl Files {
         self.0.path().join(name).to_str().unwrap().to_owned()
     }
 
-    /// `azel passes` as CSV, of the files with these `names`.
+    /// Runs `azel passes` with CSV output on the files with these `names`.
     fn passes(&self, names: &[&str], arguments: &[&str]) -> Output {
         let paths: Vec<String> = names.iter().map(|name| self.path(name)).collect();
         let mut command = vec!["passes", "--elements"];

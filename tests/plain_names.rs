@@ -1,9 +1,9 @@
-//! Names are nouns, verbs or adjectives: no variable, parameter, field, constant, function or type
-//! is called by a preposition, a pronoun or a bare participle, and limits are `min` and `max`.
+//! Rules of names. No variable, parameter, field, constant, function or type has a preposition, a
+//! pronoun or a bare participle as its name, and limits are `min` and `max`.
 //!
-//! The test reads tokens, because a use of a name has the same form as its declaration: a forbidden
-//! word that stands alone is a name. After `.` and `'` and beside `::` it is a member, a label or
-//! part of a path, which is judged where it is defined.
+//! The test reads tokens, because a use of a name has the same form as its declaration. A forbidden
+//! word that stands alone is a name. After `.` or `'`, or beside `::`, the word is a member, a
+//! label or part of a path, which the test judges at its definition.
 
 use std::{
     collections::HashMap,
@@ -12,13 +12,13 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Folder whose names are covered.
+/// Folder whose names the test checks.
 const FOLDER: &str = "src";
 
-/// Starts of paths in that folder whose names are not covered yet.
+/// Path prefixes in that folder whose names the test does not check yet.
 const NOT_COVERED: [&str; 2] = ["src/station/driver", "src/window/ui/operate/card"];
 
-/// Words that are no name, whatever their case.
+/// Words that must not be a name, in upper or lower case.
 const NO_NAMES: &str = "
     about against amid among anew around aside at away
     behind beneath beside besides between beyond both but by during each either ever except
@@ -30,10 +30,10 @@ const NO_NAMES: &str = "
     asked given gone got held kept known meant said seen sought taken told wanted
 ";
 
-/// Words that are no part of a name: `min`, `max` and `default` are the standard ones.
+/// Words that must not be part of a name: `min`, `max` and `default` are the standard ones.
 const NO_WORDS: [&str; 4] = ["least", "most", "fewest", "usual"];
 
-/// Terms with such a word.
+/// Accepted terms that contain such a word.
 const TERMS: [&str; 1] = ["least_squares"];
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,7 +42,7 @@ enum Token<'a> {
     Mark(char),
 }
 
-/// Tokens of a Rust file with their lines; comments and literals are left out.
+/// Returns the tokens of a Rust file with their lines, without comments and literals.
 fn tokens(text: &str) -> Vec<(Token<'_>, usize)> {
     let bytes = text.as_bytes();
     let is_word = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_' || *byte >= 0x80;
@@ -68,7 +68,7 @@ fn tokens(text: &str) -> Vec<(Token<'_>, usize)> {
         index = if let Some(length) = length {
             index + length
         } else if first == b'\'' {
-            // A lifetime or a label: its word is part of it.
+            // Skip the word of a lifetime or a label.
             word_end(index + 1)
         } else if is_word(&first) {
             let end = word_end(index);
@@ -87,7 +87,7 @@ fn tokens(text: &str) -> Vec<(Token<'_>, usize)> {
     tokens
 }
 
-/// Length of the block comment at the start of `text`, with the comments inside it.
+/// Returns the length of the block comment at the start of `text`, with the comments inside it.
 fn block_comment(text: &str) -> usize {
     let (mut depth, mut index) = (0_usize, 0);
     while index < text.len() {
@@ -106,7 +106,7 @@ fn block_comment(text: &str) -> usize {
     text.len()
 }
 
-/// Length of the string or character at the start of `text`, with its prefix.
+/// Returns the length of the string or character at the start of `text`, with its prefix.
 fn literal(text: &str) -> Option<usize> {
     let prefix = ["br", "cr", "r", "b", "c", ""].into_iter().find(|prefix| {
         let rest = text.strip_prefix(prefix).unwrap_or("x");
@@ -136,7 +136,7 @@ fn literal(text: &str) -> Option<usize> {
     None
 }
 
-/// Tokens without those of attributes, whose words belong to macros.
+/// Returns the tokens without those of attributes, whose words belong to macros.
 fn without_attributes<'a>(tokens: &[(Token<'a>, usize)]) -> Vec<(Token<'a>, usize)> {
     use Token::{Mark, Word};
     let (mut kept, mut depth) = (Vec::new(), 0_usize);
@@ -149,7 +149,7 @@ fn without_attributes<'a>(tokens: &[(Token<'a>, usize)]) -> Vec<(Token<'a>, usiz
             Mark('[') if depth > 0 => depth += 1,
             Mark(']') if depth == 2 => depth = 0,
             Mark(']') if depth > 2 => depth -= 1,
-            // Marks the name of a test.
+            // Keep `test`, because it marks the name of a test.
             Word("test") => {}
             _ if depth > 0 => continue,
             _ => {}
@@ -159,7 +159,7 @@ fn without_attributes<'a>(tokens: &[(Token<'a>, usize)]) -> Vec<(Token<'a>, usiz
     kept
 }
 
-/// Words of a name in snake or camel case, in small letters.
+/// Returns the words of a name in snake or camel case, in small letters.
 fn words(name: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let is_constant = !name.chars().any(char::is_lowercase);
@@ -175,16 +175,16 @@ fn words(name: &str) -> Vec<String> {
     words
 }
 
-/// Judges names by their words; a name is judged once.
+/// Verdicts on names by their words, stored because names repeat.
 #[derive(Default)]
 struct Judge<'a>(HashMap<&'a str, Verdict>);
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Verdict {
     Allowed,
-    /// The whole name is forbidden.
+    /// Name that is forbidden as a whole.
     NoName,
-    /// A word of the name is.
+    /// Name with a forbidden word.
     NoWord,
 }
 
@@ -205,7 +205,7 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// Forbidden names of a file, with their lines.
+/// Returns the forbidden names of a file, with their lines.
 fn findings<'a>(text: &'a str, judge: &mut Judge<'a>) -> Vec<Finding<'a>> {
     use Token::{Mark, Word};
     let tokens = without_attributes(&tokens(text));
@@ -217,7 +217,8 @@ fn findings<'a>(text: &'a str, judge: &mut Judge<'a>) -> Vec<Finding<'a>> {
                 is_import = false;
                 continue;
             }
-            // Without the list of generic parameters that a return type captures.
+            // `use<…>` lists the generic parameters that a return type captures, and imports
+            // nothing.
             Word("use") if tokens.get(index + 1).map(|(next, _)| *next) != Some(Mark('<')) => {
                 is_import = true;
                 continue;
@@ -239,7 +240,7 @@ fn findings<'a>(text: &'a str, judge: &mut Judge<'a>) -> Vec<Finding<'a>> {
         let is_member = previous == Some(Mark('.')) && !is_range;
         let is_in_path = pair(-1, -2) == [Some(Mark(':')); 2] || pair(1, 2) == [Some(Mark(':')); 2];
         let is_function = previous == Some(Word("fn"));
-        // A conversion keeps the name that the trait of the standard library has.
+        // A conversion has the name `from`, which the trait of the standard library gives.
         if is_in_path || is_member || is_function && name == "from" {
             continue;
         }
@@ -248,7 +249,7 @@ fn findings<'a>(text: &'a str, judge: &mut Judge<'a>) -> Vec<Finding<'a>> {
         let defines_type = ["struct", "enum", "type", "trait", "union"]
             .iter()
             .any(|word| previous == Some(Word(word)));
-        // A variant is read behind the name of its type: `Switch::Off`.
+        // Code reads a variant behind the name of its type: `Switch::Off`.
         if is_upper_camel && !defines_type {
             continue;
         }
@@ -262,7 +263,7 @@ fn findings<'a>(text: &'a str, judge: &mut Judge<'a>) -> Vec<Finding<'a>> {
     findings
 }
 
-/// A forbidden name.
+/// Forbidden name at one place of a file.
 struct Finding<'a> {
     name: &'a str,
     line: usize,

@@ -25,12 +25,12 @@ fn plan(folder: &Path, arguments: &[&str]) -> Output {
         .unwrap()
 }
 
-/// A folder with the demo station and elements of its favourites.
+/// Returns a folder with the demo station and elements of its favourites.
 pub(super) fn folder() -> tempfile::TempDir {
     folder_with(|_| ())
 }
 
-/// Like [`folder`], with a change to the station but not to the elements.
+/// Returns a folder as [`folder`] does, with a change to the station but not to the elements.
 pub(super) fn folder_with(change: impl FnOnce(&mut Station)) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let address = |port: u16| format!("127.0.0.1:{port}");
@@ -96,7 +96,7 @@ fn the_hand_over_sheet_is_one_page_of_the_first_24_hours() {
         let output = plan(folder.path(), &["--format", "html", "--hours", hours]);
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
         let html = text(&output.stdout);
-        // All but the minute of the print.
+        // Leave out the minute of the print.
         let (before, printed) = html.split_once("Printed ").unwrap();
         format!("{before}{}", printed.split_once('<').unwrap().1)
     };
@@ -120,7 +120,7 @@ fn a_station_file_that_is_not_there_ends_with_a_sentence() {
     assert!(text(&output.stderr).contains("/nowhere/station.toml"));
 }
 
-/// The element set of `line`, the first of two, with an epoch this much later.
+/// Returns the first line of an element set with an epoch this much later, seconds.
 fn later_epoch(line: &str, seconds: f64) -> String {
     let day: f64 = line[20..32].parse().unwrap();
     let line = format!("{}{:012.8}{}", &line[..20], day + seconds / 86_400.0, &line[32..68]);
@@ -131,7 +131,7 @@ fn later_epoch(line: &str, seconds: f64) -> String {
 
 #[test]
 fn events_of_a_plan_keep_their_identities_when_the_elements_are_renewed() {
-    // With several antennas another one may take a pass.
+    // Keep one antenna, because another one might take a pass.
     let folder = folder_with(|station| station.antennas.truncate(1));
     let calendar = || {
         let output = plan(folder.path(), &["--format", "ics"]);
@@ -174,7 +174,7 @@ fn a_unit_gets_no_passes_of_a_satellite_whose_name_it_cannot_take() {
     let whole: Value = serde_json::from_slice(&json.stdout).unwrap();
     let passes = whole["passes"].as_array().unwrap();
     let antennas: Vec<&Value> = passes.iter().map(|pass| &pass["antenna"]).collect();
-    // Program track of the other units needs no name.
+    // Program track of the other units does not send the satellite's name.
     assert!(antennas.iter().any(|antenna| *antenna == "Genius"), "{passes:#?}");
     assert!(antennas.iter().all(|antenna| *antenna != "Satrak"), "{passes:#?}");
 

@@ -27,7 +27,7 @@ use serde_json::Value;
 
 use super::plan_command::{folder, text};
 
-/// ISS, METOP-C, NOAA 20, NOAA 21, AQUA.
+/// Catalog numbers of ISS, METOP-C, NOAA 20, NOAA 21 and AQUA.
 const SATELLITES: [u32; 5] = [25_544, 43_689, 43_013, 54_234, 27_424];
 const NOISE_DEG: f64 = 0.02;
 
@@ -41,7 +41,7 @@ fn model() -> PointingModel {
     }
 }
 
-/// Evenly spread in a range of 0.04°, the same in each run.
+/// Draws noise that is evenly spread in a range of 0.04° and the same in each run.
 fn noise_deg(seed: &mut u64) -> f64 {
     *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     ((*seed >> 40) as f64 / f64::from(1 << 24) - 0.5) * 2.0 * NOISE_DEG
@@ -134,7 +134,7 @@ fn the_model_of_recorded_passes_is_told_with_what_it_is_sure_of() {
     for number in SATELLITES {
         fly(&recorder, antenna, station.site, number, &mut seed);
     }
-    // As it is entered in Preferences, for this antenna and for another one.
+    // Record a peak as Preferences does, for this antenna and for another one.
     let at = "2026-08-12T10:00:00Z".parse().unwrap();
     let peak = Peak { body: PeakBody::Moon, time: at, azimuth_deg: 180.0, elevation_deg: 60.0 };
     for of in [antenna.id, AntennaId(99)] {
@@ -162,7 +162,7 @@ fn the_model_of_recorded_passes_is_told_with_what_it_is_sure_of() {
         kept += 1;
     }
     assert_eq!(kept, 8, "{told}");
-    // Evenly spread in ±0.02°.
+    // The noise is evenly spread in ±0.02°.
     let noise_deg = told["noise"][0]["noise_deg"].as_f64().unwrap();
     assert!((noise_deg - NOISE_DEG / 3.0_f64.sqrt()).abs() < 0.001, "{noise_deg}");
 

@@ -1,5 +1,5 @@
-//! Tests with real processes, sockets and clocks. They stand apart so that no other test
-//! takes the processor from them.
+//! Tests with real processes, sockets and clocks. They stand apart so that no other test takes the
+//! processor from them.
 
 #![allow(
     clippy::unwrap_used,

@@ -61,7 +61,7 @@ fn request() -> impl Strategy<Value = Request> {
     ]
 }
 
-/// Bytes that occur in frames, so that every branch is reached.
+/// Draws bytes that occur in frames, to reach every branch.
 fn likely_bytes() -> impl Strategy<Value = Vec<u8>> {
     let likely = prop_oneof![
         4 => prop::sample::select(vec![0x02_u8, 0x03, 0x06, 0x15, 0x31, 0x32, 0x33, 0x46]),
@@ -71,7 +71,7 @@ fn likely_bytes() -> impl Strategy<Value = Vec<u8>> {
     prop::collection::vec(likely, 0..200)
 }
 
-/// Whole frames and noise, as on a line.
+/// Draws whole frames and noise, as on a line.
 fn stream() -> impl Strategy<Value = Vec<u8>> {
     let piece = prop_oneof![
         request().prop_map(|request| request.to_bytes(Address::FACTORY)),
@@ -81,7 +81,7 @@ fn stream() -> impl Strategy<Value = Vec<u8>> {
     prop::collection::vec(piece, 0..8).prop_map(|pieces| pieces.concat())
 }
 
-/// A frame with a correct checksum around any 33 characters.
+/// Returns a frame with a correct checksum around any 33 characters.
 fn status_frame(address: Address, data: [u8; 33]) -> Vec<u8> {
     let mut bytes = vec![0x06, address.number(), 0x31];
     bytes.extend(data.map(|byte| 0x20 + byte % 0x60));
@@ -162,10 +162,10 @@ proptest! {
             bad[bit / 8] ^= 1 << (bit % 8);
             let mut decoder = Decoder::new(address);
             decoder.push(&bad);
-            // The only exception, described at the decoder.
+            // The decoder describes this only exception.
             let is_offline = bad[0] == 0x06 && bad[3] == b'F' && bad[4] == 0x03;
             for frame in decoder.by_ref().flatten() {
-                // A command may end early; then it is refused for its length.
+                // Damage may shorten a command. The length check then refuses it.
                 prop_assert!(Request::parse(&frame).is_err());
                 let is_refusal = matches!(Reply::parse(&frame), Err(ReplyError::Echo { .. }));
                 prop_assert!(is_refusal || is_offline, "{frame:?}");

@@ -11,7 +11,7 @@ use tokio::time::timeout;
 
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// A fast line, because these tests run in real time.
+/// Returns options of a fast line, because these tests run in real time.
 fn options() -> Options {
     Options { latency: Duration::ZERO, baud: 1_000_000, ..Options::default() }
 }

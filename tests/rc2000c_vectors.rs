@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use azel::protocol::{Parity, rc2000c::*};
 
-/// Names and bytes.
+/// Returns the names and bytes of the vectors.
 fn vectors() -> Vec<(&'static str, Vec<u8>)> {
     include_str!("vectors/rc2000c.txt")
         .lines()
@@ -22,7 +22,7 @@ fn bytes_of(name: &str) -> Vec<u8> {
     vectors().into_iter().find(|(known, _)| *known == name).unwrap_or_else(|| panic!("{name}")).1
 }
 
-/// Decoder for the address in the frame.
+/// Returns a decoder for the address in the frame.
 fn decoder_for(bytes: &[u8]) -> Decoder {
     Decoder::new(Address::new(bytes[1]).unwrap())
 }
@@ -69,7 +69,7 @@ fn every_frame_is_whole_in_any_pieces() {
     }
 }
 
-/// Requests built from typed values.
+/// Returns the requests of the vectors, built from typed values.
 fn requests() -> Vec<(&'static str, u8, Request)> {
     let motion = Request::Motion;
     let jog = |direction, speed, ms| {
@@ -274,7 +274,7 @@ fn every_single_wrong_bit_is_refused() {
             let mut seen: Vec<_> = decoder.by_ref().collect();
             seen.extend(decoder.line_is_quiet());
             assert!(seen.iter().all(Result::is_err), "{name}: bit {at}: {seen:?}");
-            // The next frame is not lost by it.
+            // The damage does not cost the next frame.
             decoder.push(&bad);
             decoder.push(&good);
             let frames: Vec<_> = decoder.flatten().collect();

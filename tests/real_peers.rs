@@ -1,8 +1,8 @@
-//! Uploads and fetches against the servers that units and stations really run: OpenSSH's
-//! `sshd`, `vsftpd` with and without TLS, and HTTPS by `openssl`.
+//! Uploads and fetches against the servers that units and stations really run: OpenSSH's `sshd`,
+//! `vsftpd` with and without TLS, and HTTPS by `openssl`.
 //!
-//! The tests need root, both servers and `openssl`. They are ignored by default and run by
-//! name, one after the other, where those are installed.
+//! The tests need root, both servers and `openssl`. They are ignored by default: run them by name,
+//! one after the other.
 
 mod breaks;
 mod doorman;

@@ -1,10 +1,10 @@
-//! A unit that closes the connection a hundred times, also during a jog, leaves no
+//! Reconnects: a unit that closes the connection a hundred times, also during a jog, leaves no
 //! process, handle or connection behind.
 //!
-//! Several units share the hundred, since a session waits before it dials again.
+//! Several units share the hundred, because a session waits before it dials again.
 
 #![cfg(target_os = "linux")]
-// A test may panic, in its helpers too.
+// Tests and their helpers may panic.
 #![allow(clippy::expect_used, clippy::panic)]
 
 use std::{
@@ -27,11 +27,11 @@ use azel::{
 use jiff::Timestamp;
 use tokio::runtime::Runtime;
 
-/// Longer than any step here takes on a slow machine.
+/// Time limit of any wait in these tests, long enough for a slow machine.
 const PATIENCE: Duration = Duration::from_secs(30);
 const UNITS: usize = 10;
 const ROUNDS: usize = 10;
-/// A key is held in one of so many rounds.
+/// Number of rounds of which one has a held key.
 const HELD_EACH: usize = 3;
 /// Interval of renewals; a lease lasts 300 ms.
 const RENEW: Duration = Duration::from_millis(50);
@@ -77,8 +77,8 @@ impl Pair {
     }
 }
 
-/// Ids of the dead-men that this process has started, including those that have ended and
-/// are not collected.
+/// Returns the ids of the dead-men that this process has started, including ended ones that it has
+/// not yet collected.
 fn dead_men() -> Vec<u32> {
     let ids = fs::read_dir("/proc").expect("/proc").filter_map(|entry| {
         let name = entry.ok()?.file_name();
@@ -97,7 +97,7 @@ fn handles() -> usize {
     fs::read_dir("/proc/self/fd").expect("/proc").count()
 }
 
-/// Number of open connections to `port`.
+/// Returns the number of open connections to `port`.
 fn established_at(port: u16) -> usize {
     let local = format!(":{port:04X}");
     let table = fs::read_to_string("/proc/net/tcp").expect("/proc/net/tcp");
@@ -110,7 +110,7 @@ fn established_at(port: u16) -> usize {
         .count()
 }
 
-/// Holds a key on every unit until each one moves and is watched.
+/// Holds a key on every unit until each antenna moves and has a dead-man.
 fn hold_all(pairs: &[Pair]) {
     for pair in pairs {
         pair.send(Command::Manual);
@@ -119,7 +119,7 @@ fn hold_all(pairs: &[Pair]) {
     wait_for("the jogs", || {
         looks += 1;
         for pair in pairs {
-            // On a busy machine a hold may have run out and needs a new press.
+            // On a busy machine, a hold may have run out, and the unit needs a new press.
             if looks % 40 == 0 {
                 pair.send(Command::EndJog);
             }

@@ -1,6 +1,10 @@
-//! Rehearsals of the demo station. A day of its three antennas here is two hours long;
-//! `AZEL_HOURS=24 cargo test --release --test azel rehearsal -- --nocapture` takes a whole one, prints
-//! how long that took, and takes it again: the same comes of it.
+//! Rehearsals of the demo station. The test takes two hours as a day of its three antennas. A long
+//! form takes a whole day, prints the time that this took, and compares the result with a second
+//! run:
+//!
+//! ```text
+//! AZEL_HOURS=24 cargo test --release --test azel rehearsal -- --nocapture
+//! ```
 
 use std::{
     num::NonZeroU32,
@@ -35,10 +39,11 @@ static ELEMENTS: LazyLock<Arc<Catalog>> = LazyLock::new(|| {
     Arc::new(catalog)
 });
 
-/// Without a fault.
+/// Rehearsal without a fault.
 static PLAIN: LazyLock<Rehearsed> = LazyLock::new(|| rehearsed(&rehearsal(0.2, &[])));
 
-/// In the first quarter of an hour the Satrak takes METEOR-M2 4 and the Genius NOAA 20.
+/// Returns a rehearsal of the demo station. In its first quarter of an hour, the Satrak takes
+/// METEOR-M2 4 and the Genius NOAA 20.
 fn rehearsal(hours: f64, faults: &[&str]) -> Rehearsal {
     let address = |port: u16| format!("127.0.0.1:{port}");
     let addresses =
@@ -79,7 +84,7 @@ fn the_same_seed_gives_the_same_bytes_at_any_speed_and_another_seed_does_not() {
     assert_ne!(once, text(&Rehearsed { seed: 1, ..other }));
 }
 
-/// A satellite near the horizon takes as long through half of the beam.
+/// Time that a satellite near the horizon takes through half of the beam, seconds.
 const AT_LIMIT_S: f64 = 3.5;
 
 #[test]
@@ -114,7 +119,7 @@ fn a_day_of_three_antennas_has_a_report_of_each_pass_beside_its_promise() {
         let report = pass.report.as_ref().unwrap_or_else(|| panic!("no report: {pass:?}"));
         assert!(pass.flown.is_some() && report.report.rms.is_some(), "{pass:?}");
         // Units without faults can keep the promise. At a limit, an RC2000C reports no angle, so
-        // that the time in which the satellite is still within its beam does not count there.
+        // the time in its beam does not count there.
         assert!(pass.got_s() > 0.97 * pass.promised_s - AT_LIMIT_S, "{pass:?}");
     }
 }
@@ -132,7 +137,7 @@ fn a_fault_costs_what_it_covers_and_names_its_cause() {
     assert_eq!(after.flown.as_ref().unwrap().cause, Some(MissCause::Lost(LossCause::LinkLost)));
     let losses = &after.report.as_ref().unwrap().report.losses;
     assert!(losses.iter().any(|lost| lost.cause == LossCause::LinkLost), "{losses:?}");
-    // A Genius refuses to be sent anywhere.
+    // A Genius with this fault refuses every go-to.
     let refused = first(&faulty, GENIUS);
     assert!(refused.got_s() < 0.1 * refused.promised_s, "{refused:?}");
 }
@@ -144,7 +149,7 @@ fn slow_drives_and_a_late_clock_show_in_the_error() {
     let worst = |of: &Rehearsed, antenna| first(of, antenna).worst_deg();
     let late = rehearsed(&rehearsal(0.2, &["clock-late=1500,antenna=Satrak"]));
     let rms = |of: &Rehearsed| first(of, SATRAK).rms_deg().unwrap();
-    // A second and a half of a low satellite is up to a degree.
+    // A low satellite moves by up to a degree in a second and a half.
     assert!(rms(&late) > rms(plain) + 0.1, "{} {}", rms(&late), rms(plain));
     let slow = worst(&faulty, GENIUS).unwrap_or(f64::INFINITY);
     assert!(slow > 5.0 * worst(plain, GENIUS).unwrap(), "{slow}");
@@ -155,7 +160,7 @@ fn what_cannot_be_rehearsed_is_said() {
     let fails = |what: &Rehearsal| run(what, &|_| (), &|| false).unwrap_err();
     let unknown = fails(&rehearsal(0.1, &["noise,antenna=Nobody"]));
     assert!(matches!(unknown, RehearsalError::UnknownAntenna(name) if name == "Nobody"));
-    // It does not look at a clock.
+    // An unknown antenna is an error, and so is a late clock of a Genius, which uses no clock.
     let impossible = fails(&rehearsal(0.1, &["clock-late=5,antenna=Genius"]));
     assert!(matches!(impossible, RehearsalError::ImpossibleFault(name) if name == "Genius"));
     let mut nobody = rehearsal(0.1, &[]);

@@ -22,7 +22,7 @@ fn rehearse(folder: &Path, arguments: &[&str]) -> Output {
         .unwrap()
 }
 
-/// All files of a folder, with their bytes.
+/// Returns all files of a folder, with their bytes.
 fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     entries.map(|path| (path.clone(), fs::read(path).unwrap())).collect()

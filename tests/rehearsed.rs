@@ -1,6 +1,6 @@
 //! Whole stations in tokio's paused time: simulators instead of units, and engine, sessions and
-//! simulators as tasks of one thread. However busy the computer is, the same happens at the same
-//! time.
+//! simulators as tasks of one thread. Every run gives the same events at the same times, even on a
+//! busy computer.
 
 mod automatic;
 mod elements;
@@ -38,12 +38,12 @@ use jiff::ToSpan as _;
 use self::scene::Scene;
 use crate::common::units::{self, antenna, measured, start, until};
 
-/// Waits for something in a record; each look reads its file.
+/// Waits for an entry of a record with long pauses, because each look reads the file.
 async fn until_recorded<T>(what: &str, found: impl FnMut() -> Option<T>) -> T {
     units::until_looking(Duration::from_secs(5), what, found).await
 }
 
-/// The passes of the schedule that are over, with what became of them.
+/// Returns the finished passes of the schedule with their results.
 fn flown(client: &Client) -> Vec<(AntennaId, Flown)> {
     let day = Arc::clone(&client.snapshot().day);
     let flown = day.iter().filter_map(|line| match &line.event {

@@ -3,7 +3,7 @@
 use azel::protocol::rotator_genius::*;
 use proptest::prelude::*;
 
-/// Everything decoded from a stream cut into pieces, to the end.
+/// Returns everything decoded from a stream in pieces, to its end.
 fn decode<'a>(pieces: impl IntoIterator<Item = &'a [u8]>) -> Vec<Received> {
     let mut decoder = Decoder::new();
     let mut seen = Vec::new();
@@ -15,7 +15,7 @@ fn decode<'a>(pieces: impl IntoIterator<Item = &'a [u8]>) -> Vec<Received> {
     seen
 }
 
-/// Bytes of replies, of requests and of neither.
+/// Draws bytes of replies, of requests and of neither.
 fn stretch() -> impl Strategy<Value = Vec<u8>> {
     let number = || prop_oneof!["[0-9]{3}", " {0,2}[0-9]", Just("999".to_owned())];
     let rotator = |name: usize, offset: usize| {
@@ -125,7 +125,7 @@ proptest! {
                 Received::LayoutChanged(_) | Received::OtherProtocol => 0,
             };
         }
-        // A go-to is acknowledged with three bytes, or with three digits more.
+        // The acknowledgement of a go-to has three bytes, or three more digits.
         let digits = stream.len() - told;
         prop_assert!(digits.is_multiple_of(3) && digits <= 3 * go_tos, "{} of {}", told, stream.len());
     }

@@ -33,7 +33,7 @@ fn vectors() -> Vec<Vector> {
         .collect()
 }
 
-/// A reply in the words of the vectors.
+/// Returns a reply in the terms of the vectors.
 fn described(reply: &Reply) -> Value {
     match reply {
         Reply::Status(status) => json!(["h", {
@@ -108,7 +108,7 @@ fn every_vector_gives_its_messages_whole_and_in_pieces() {
             let mut seen = decode(&mut decoder, &bytes, piece);
             assert!(is_idle_after || decoder.unfinished_bytes() == rest.len(), "{id} {piece}");
             if rest.is_empty() {
-                // Without remaining bytes this adds only noise that has not ended yet.
+                // Without remaining bytes, this adds only unfinished noise.
                 seen.extend(decoder.idle());
             }
             assert!(bytes.ends_with(&rest), "{id}");
@@ -122,7 +122,7 @@ fn every_vector_gives_its_messages_whole_and_in_pieces() {
                 }
             }
             assert_eq!(Value::from(replies), messages, "{id} {piece}");
-            // At most one resync, and every byte of it is reported.
+            // The decoder resyncs at most once and reports every byte of it.
             assert!(noise.len() <= 1, "{id} {piece}");
             assert_eq!(noise.concat(), skipped, "{id} {piece}");
         }
@@ -131,7 +131,7 @@ fn every_vector_gives_its_messages_whole_and_in_pieces() {
 
 #[test]
 fn all_vectors_in_one_stream_lose_nothing() {
-    // All but those that need silence, the other form and the broken ones.
+    // All vectors except broken ones and those that need silence or the other form.
     let kept = ["G01", "G02", "G03", "G09", "G10", "G11", "G13", "G15", "G17", "G18", "G20"];
     let kept: Vec<_> =
         vectors().into_iter().filter(|vector| kept.contains(&vector.id.as_str())).collect();

@@ -1,21 +1,22 @@
-//! Properties of whole sessions that drive the simulated units in paused time, over
-//! random mounts, limits, keep-outs, commands and troubles.
+//! Properties of whole sessions that drive the simulated units in paused time, over random mounts,
+//! limits, keep-outs, commands and troubles.
 //!
-//! The short form runs with all other tests. The long form, optimised because a case is
-//! minutes of simulated time:
+//! The short form runs with all other tests. The long form is optimised, because a case is minutes
+//! of simulated time:
 //!
 //! ```text
 //! AZEL_CASES=10000 cargo test --release --test azel -- --nocapture safety_properties
 //! ```
 //!
-//! It runs 10 000 cases in each of nineteen classes, and as many for each of three makes and
-//! six rates of damage. One class and a range of seeds, here 5000 from seed 1000000 on:
+//! It runs 10 000 cases in each of nineteen classes, and as many for each of three makes and six
+//! rates of damage. This command runs one class with 5000 seeds from 1000000 on:
 //!
 //! ```text
-//! AZEL_SEED=1000000 AZEL_CASES=5000 cargo test --release --test azel -- --nocapture safety_properties::cuts
+//! AZEL_SEED=1000000 AZEL_CASES=5000 \
+//!   cargo test --release --test azel -- --nocapture safety_properties::cuts
 //! ```
 //!
-//! The gate alone, ten times as many:
+//! This command runs the gate alone, with ten times as many cases:
 //!
 //! ```text
 //! AZEL_CASES=10000 cargo test --release --lib -- --nocapture any_motion_that_is_allowed
@@ -23,26 +24,26 @@
 //!
 //! Limits of the properties:
 //!
-//! - an angle is compared to within half a step of the reported figures plus the overshoot
-//!   of the drives (0.15 degrees for a Satrak, 2.6 for a Genius in whole degrees, 0.3 for an
-//!   RC2000C): the session knows no finer figure;
-//! - others move a Satrak and a Genius only: an RC2000C has one master on its line, and the
-//!   panel of the simulated one does not jog;
-//! - false flags are tried only on the two makes whose jogs run on and that others can move;
-//! - a jog is not held to the keep-outs while its link is down: it goes on until STOP gets
-//!   through. A motion to a position is.
+//! - The tests compare an angle to within half a step of the reported figures plus the overshoot of
+//!   the drives. This sum is 0.15 degrees for a Satrak, 2.6 for a Genius in whole degrees, and 0.3
+//!   for an RC2000C. The session knows no finer figure.
+//! - Others move only a Satrak and a Genius. An RC2000C has one master on its line, and the panel
+//!   of the simulated one does not jog.
+//! - The tests try false flags only on the two makes whose jogs run on and that others can move.
+//! - A jog may enter a keep-out while its link is down, because it goes on until STOP gets through.
+//!   A motion to a position may not.
 //!
-//! `judge.rs` judges by the true positions of the axes and by the words that the unit received,
+//! `judge.rs` judges by the true positions of the axes and by the requests that the unit received;
 //! `truth.rs` has its own geometry. Limits of these classes:
 //!
-//! - a jog is not held to the keep-outs while its angles are frozen, or while its link or its
-//!   session is down: nobody can know where the antenna is;
-//! - a unit that tracks by itself and reports wrong figures is held to the keep-outs, not to their
-//!   margins.
+//! - A jog may enter a keep-out while its angles are frozen, or while its link or its session is
+//!   down. Nobody can know the position of the antenna then.
+//! - A unit that tracks on its own and reports wrong figures may enter the margin of a keep-out,
+//!   but not the keep-out.
 //!
-//! Each class prints its seed, how many cases it ran, and the processor time of the turns of its
-//! sessions. `AZEL_SEED` repeats a run; a case that fails prints its own seed, and `AZEL_SEED=<that> AZEL_CASES=1` runs it
-//! alone.
+//! Each class prints its seed, the number of cases that it ran, and the processor time of the turns
+//! of its sessions. `AZEL_SEED` repeats a run. A failing case prints its own seed, and
+//! `AZEL_SEED=<that> AZEL_CASES=1` runs it alone.
 
 pub(crate) mod cases;
 mod deeds;

@@ -20,7 +20,7 @@ fn password() -> impl Strategy<Value = Password> {
 }
 
 fn moment() -> impl Strategy<Value = Timestamp> {
-    // 2000 to 2099.
+    // The years 2000 to 2099.
     (946_684_800_i64..4_102_444_800).prop_map(|second| Timestamp::from_second(second).unwrap())
 }
 
@@ -132,7 +132,7 @@ fn setting() -> impl Strategy<Value = Setting> {
         settings().prop_map(Setting::Settings),
         angles().prop_map(Setting::AngleSettings),
         Just(Setting::RtcReupdate),
-        // Places are sent with two decimals.
+        // Azel sends positions with two decimals.
         (any::<bool>(), -9000_i32..=9000, -18000_i32..=18000).prop_map(|(automatic, lat, lon)| {
             let position = Position::new(f64::from(lat) / 100.0, f64::from(lon) / 100.0).unwrap();
             Setting::GpsSettings(GpsSettingsChange { automatic, position })
@@ -154,7 +154,7 @@ fn request() -> impl Strategy<Value = Request> {
     ]
 }
 
-/// Payloads that begin like the unit's.
+/// Draws payloads that begin like the unit's.
 fn payload() -> impl Strategy<Value = String> {
     let word = (0..Word::ALL.len()).prop_map(|at| Word::ALL[at].name());
     let value = prop_oneof!["[0-9.+-]{0,6}", "[ -~]{0,8}", Just("ERR".into()), Just("OK".into())];
@@ -240,7 +240,7 @@ proptest! {
         let frame = decode(&request.to_bytes()).remove(0).unwrap();
         let shown = format!("{frame:?} {}", frame.redacted());
         prop_assert!(!shown.contains(&password));
-        // Cut anywhere, the refused line shows no secret either.
+        // A refused line shows no secret either, wherever it is cut.
         let bytes = request.to_bytes();
         for from in 0..bytes.len() {
             for broken in decode(&bytes[from..]).into_iter().filter_map(Result::err) {

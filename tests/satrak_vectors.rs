@@ -83,7 +83,7 @@ fn every_vector_is_cut_into_its_tokens() {
     }
 }
 
-/// Requests built from typed values, by the numbers of their vectors.
+/// Returns the requests of the vectors, built from typed values, by the numbers of their vectors.
 fn requests() -> Vec<(&'static str, Request)> {
     let text = |text| TextValue::new("text", text).unwrap();
     let motion = Request::Motion;
@@ -346,7 +346,8 @@ fn every_vector_has_a_meaning_and_its_values_are_explained() {
             };
             assert!(!meaning.text.is_empty(), "{id}");
             assert!(!meaning.text.contains("password"), "{id}");
-            // An echoed question, an unknown word, an error, and a status with too few values.
+            // The odd vectors are an echoed question, an unknown word, an error, and a status with
+            // too few values.
             let is_odd = match meaning.tone {
                 Tone::Plain | Tone::Change | Tone::Good => false,
                 Tone::Caution | Tone::Bad => true,

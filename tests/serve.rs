@@ -43,13 +43,13 @@ use azel::{
 use jiff::Timestamp;
 use tokio::runtime::Runtime;
 
-/// Longer than any step here takes.
+/// Time limit of any wait in these tests.
 const PATIENCE: Duration = Duration::from_secs(30);
 /// Interval at which a window renews a jog.
 const RENEW: Duration = Duration::from_millis(60);
 const NOAA_20: u32 = 43_013;
 
-/// NOAA 20 is up for another six minutes.
+/// Returns a time at which NOAA 20 is up for another six minutes.
 fn start() -> Timestamp {
     "2026-08-12T11:15:30Z".parse().unwrap()
 }
@@ -189,7 +189,7 @@ fn is_measured(client: &Client, name: &str) -> Option<()> {
     status(client, name).moves.map(|_| ())
 }
 
-/// The dish tracks NOAA 20 on board.
+/// Lets the dish track NOAA 20 on board.
 fn track_on_board(client: &Client) {
     let dish = id(client, "Dish");
     wait_for("the dish", || is_measured(client, "Dish"));
@@ -204,7 +204,7 @@ fn track_on_board(client: &Client) {
     });
 }
 
-/// The mast tracks the Sun by program track.
+/// Starts a program track of the Sun with the mast.
 fn lead_to_the_sun(client: &Client) {
     wait_for("the mast", || is_measured(client, "Mast"));
     let site = client.snapshot().station.site;
@@ -213,7 +213,7 @@ fn lead_to_the_sun(client: &Client) {
     wait_for("the mast moves", || (status(client, "Mast").moves == Some(true)).then_some(()));
 }
 
-/// Holds a jog key of the horn.
+/// Holds a jog key of the horn until the horn moves.
 fn jog(client: &Client) {
     let horn = id(client, "Horn");
     send(client, horn, driver::Command::Connect);
@@ -229,7 +229,8 @@ fn hold(client: &Client) {
     send(client, id(client, "Horn"), driver::Command::Jog { rates_deg_s: [1.0, 0.0] });
 }
 
-/// Drives the station of `units` in the main loop of the program, and ends it.
+/// Runs the station of `units` in the main loop of the program, drives it and ends it. Returns its
+/// end and the time that the end took.
 fn served(units: &Units, drive: impl FnOnce(&Client) + Send + 'static) -> (Ended, Duration) {
     let (station, end, woken) = units.open();
     let client = station.client().clone();
@@ -298,7 +299,7 @@ fn the_alarms_of_an_antenna_go_when_it_gets_another_unit() {
     wait_for("the alarm", || of_the_old(&client.snapshot()).then_some(()));
     let mut station = Station::clone(&client.snapshot().station);
     for antenna in station.antennas.iter_mut().filter(|antenna| antenna.name == "Dish") {
-        // Nobody listens there.
+        // No server listens at this address.
         antenna.connection.address = "127.0.0.1:9".to_owned();
     }
     let wanted = station.clone();
@@ -326,7 +327,7 @@ fn a_second_one_drives_nothing_until_the_first_has_ended() {
             && matches!(alarm.kind, AlarmKind::StationElsewhere(_))
     };
     assert!(told.alarms.list().iter().any(says_so));
-    // A motion requested there goes nowhere.
+    // The second station refuses a motion, because the first one drives the unit.
     let follow = ProgramTrack::new(Target::Sun, told.station.site, Vec::new());
     send(client, id(client, "Mast"), driver::Command::ProgramTrack(Box::new(follow)));
     wait_for("the refusal", || {
@@ -336,7 +337,7 @@ fn a_second_one_drives_nothing_until_the_first_has_ended() {
     });
     let is_led = |client: &Client| status(client, "Mast").intent != "standby";
     assert!(units.all_stand() && !is_led(first.client()));
-    // A STOP there stops the antenna here.
+    // A STOP at the second station stops the antenna of the first.
     lead_to_the_sun(first.client());
     assert!(is_led(first.client()));
     let stopped = client.stop_all();
@@ -376,7 +377,7 @@ fn a_unit_of_two_station_files_is_driven_from_the_first_and_stopped_from_both() 
     wait_for("it takes over", || is_measured(client, "Tower"));
 }
 
-/// The program itself, on the station of `units`.
+/// The program itself as a process, on the station of `units`.
 struct Served {
     process: Child,
     lines: mpsc::Receiver<String>,
@@ -389,7 +390,7 @@ fn program(units: &Units) -> Process {
         .env("XDG_RUNTIME_DIR", folder.join("runtime"))
         .env("XDG_DATA_HOME", folder.join("data"))
         .env("XDG_CONFIG_HOME", folder.join("config"))
-        // Alarms of a test neither show nor sound on the desktop of who runs it.
+        // Keep the alarms of a test from the desktop and the speakers of its user.
         .env("DBUS_SESSION_BUS_ADDRESS", "unix:path=/nowhere")
         .env("PATH", "")
         .args([Path::new("--station"), &units.path()]);
@@ -543,7 +544,8 @@ fn an_alarm_says_which_antennas_a_setting_that_cannot_be_read_keeps_still() {
 
 #[test]
 fn a_station_file_that_could_not_be_read_is_not_replaced() {
-    // Somebody may mend it meanwhile: its antennas are still not those that were seen here.
+    // Somebody may repair the file while Azel runs. Its antennas are still not those that Azel
+    // shows.
     for is_mended in [false, true] {
         let units = Units::start(|station| station.antennas.truncate(2));
         let whole = std::fs::read_to_string(units.path()).unwrap();
@@ -582,7 +584,7 @@ fn output_that_nobody_reads_holds_up_nothing() {
 fn a_unit_that_cannot_be_locked_is_left_alone_until_it_can() {
     let units = Units::start(|station| station.antennas.truncate(2));
     let locks = units.folder.path().join("run");
-    // No folder can be made where a file stands.
+    // Azel cannot make a folder where a file stands.
     std::fs::write(&locks, "").unwrap();
     let (station, _end, _woken) = units.open();
     let client = station.client();

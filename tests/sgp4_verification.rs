@@ -8,8 +8,8 @@ use glam::DVec3;
 
 const SETS: &str = include_str!("data/SGP4-VER.TLE");
 const EXPECTED: &str = include_str!("data/tcppver.out");
-/// The output is rounded to 1e-8 km and 1e-9 km/s; the rest allows for the order of
-/// floating point operations, whose errors build up over 1,844,000 minutes.
+/// Tolerance of a position, km. The output is rounded to 1e-8 km and 1e-9 km/s. The rest allows for
+/// the order of floating point operations, whose errors build up over 1,844,000 minutes.
 const POSITION_TOLERANCE_KM: f64 = 1e-6;
 const VELOCITY_TOLERANCE_KM_S: f64 = 2e-9;
 
@@ -20,7 +20,7 @@ struct Row {
     velocity_km_s: DVec3,
 }
 
-/// Expected states of every case, by its number.
+/// Returns the expected states of every case, by its number.
 fn expected() -> Vec<(String, Vec<Row>)> {
     let mut cases: Vec<(String, Vec<Row>)> = Vec::new();
     for line in EXPECTED.lines().filter(|line| !line.trim().is_empty()) {
@@ -39,8 +39,8 @@ fn expected() -> Vec<(String, Vec<Row>)> {
     cases
 }
 
-/// The two lines of every case. The authors made the error cases by hand without adjusting
-/// the checksums, which are corrected here.
+/// Returns the two lines of every case. The authors made the error cases by hand without adjusting
+/// the checksums, so this function corrects them.
 fn sets() -> Vec<(String, String)> {
     let lines: Vec<String> =
         SETS.lines().filter(|line| !line.starts_with('#')).map(with_checksum).collect();
@@ -61,16 +61,16 @@ fn every_case_agrees_with_the_authors_code() {
     for ((first, second), (number, rows)) in sets().iter().zip(expected()) {
         let report = read_elements(&format!("{first}\n{second}\n"));
         if number == "33333" {
-            // Its perigee is 84 km from the centre of the Earth, and its rows reach 45,000 km where its
-            // apogee is 33,400 km from the centre.
+            // The perigee of this case is 84 km from the centre of the Earth. Its rows reach 45,000
+            // km where its apogee is 33,400 km from the centre.
             let reason = &report.refused[0].reason;
             let is_through = |error: &_| matches!(error, ElementsError::Perigee(-6400.0..=-6200.0));
             assert!(matches!(reason, RefusalReason::Orbit(error) if is_through(error)), "{reason}");
             continue;
         }
         if number == "33334" {
-            // Its only row repeats the last state of the case before: the mean motion of 0.00001
-            // is an error from the start.
+            // The only row of this case repeats the last state of the case before. Its mean motion
+            // of 0.00001 is an error from the start.
             let reason = RefusalReason::Orbit(ElementsError::Decayed);
             assert_eq!(report.refused[0].reason, reason);
             continue;

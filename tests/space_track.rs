@@ -27,7 +27,7 @@ fn source() -> Source {
     }
 }
 
-/// Answers to a log-in, a query with `answer`, and the log-out.
+/// Returns the answers to a log-in, a query with `answer`, and the log-out.
 fn visit(answer: Reply) -> [Reply; 3] {
     [ok(SESSION, "\"\""), answer, ok("", "\"Successfully logged out\"")]
 }
@@ -68,7 +68,7 @@ impl Station {
         library.with_space_track(access.with_server(&self.server.url()))
     }
 
-    /// Asks `after_s` seconds after the start; returns whether something new came.
+    /// Asks `after_s` seconds after the start. Returns `true` if new elements came, and the report.
     fn ask(&self, after_s: i64, forced: bool) -> (bool, SourceReport) {
         let renewed = self.library().refresh(&[source()], at(after_s), forced, &|| false).unwrap();
         (renewed > 0, self.report())
@@ -215,7 +215,8 @@ fn a_password_goes_to_no_other_computer_in_the_open() {
     assert_eq!(reports[0].fetch_problem, Some(FetchProblem::Address));
 }
 
-/// Ends the program once the server has answered the log-in, or the whole visit.
+/// Password store that ends the program once the server has answered the log-in, or the whole
+/// visit.
 struct EndsProgram;
 
 impl PasswordStore for EndsProgram {

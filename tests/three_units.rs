@@ -1,7 +1,7 @@
-//! The three makes at once, each with trouble on its line, for an hour of paused time: the
-//! display is true and nothing gets stuck. Prints the memory: it grows until the logs of
-//! the links are full, after some two hours, and stays flat from then on (`AZEL_HOURS=4
-//! cargo test --test azel three_units -- --nocapture`).
+//! The three makes at once, each with trouble on its line, for an hour of paused time. The display
+//! must be true, and nothing may get stuck. The test prints the memory (`AZEL_HOURS=4 cargo test
+//! --test azel three_units -- --nocapture`). Memory grows for some two hours, until the logs of the
+//! links are full, and then stays flat.
 
 use std::time::Duration;
 
@@ -28,9 +28,9 @@ use crate::common::{
 const LOOK: Duration = Duration::from_millis(100);
 /// Length of a round of trouble.
 const TROUBLE: Duration = Duration::from_secs(40);
-/// Time after a round within which a link is up again.
+/// Max time from the end of a round to a link that is up again.
 const RECOVERY: Duration = Duration::from_mins(1);
-/// Time within which a STOP on a good link is proved.
+/// Max time until a STOP on a good link is proved.
 const PROOF: Duration = Duration::from_secs(15);
 
 /// A session, its simulator, and controls for both.
@@ -48,7 +48,7 @@ struct Pair {
     jog_deg_s: f64,
 }
 
-/// Session of `antenna` with the unit in memory.
+/// Starts a session of `antenna` with the unit in memory.
 fn open<U: Unit>(antenna: &Antenna, control: &Control<U>) -> AntennaHandle {
     let served = control.clone();
     let dial = Network::default().dial(move || link(&served));
@@ -172,7 +172,7 @@ fn of_rc2000c() -> Pair {
     }
 }
 
-/// Checks that the shown direction is where the antenna was when it was asked.
+/// Checks that the antenna was at the shown direction at some time since the question.
 fn assert_true(pair: &Pair) {
     let shown = pair.handle.snapshot();
     let Some(measured) = shown.state.measured else { return };
@@ -183,7 +183,7 @@ fn assert_true(pair: &Pair) {
     assert!(off <= allowed, "{}: {off} degrees off after {age_s} s: {measured:?}", pair.name);
 }
 
-/// A random act of the operator.
+/// Sends a random command of the operator.
 fn drive(pair: &Pair, dice: &mut Dice) {
     let command = match dice.below(6) {
         0 => Command::Standby,
@@ -196,11 +196,11 @@ fn drive(pair: &Pair, dice: &mut Dice) {
         4 => Command::Hold,
         _ => return pair.handle.stop(),
     };
-    // A session that is too busy says so; the operator would press again.
+    // Ignore the refusal by a busy session, because the operator would press again.
     let _ = pair.handle.send(command);
 }
 
-/// Keeps the key down for a look.
+/// Holds the jog key for one look.
 fn hold(pair: &Pair, dice: &mut Dice) {
     let way = if dice.below(2) == 0 { 1.0 } else { -1.0 };
     let rates_deg_s = [way * pair.jog_deg_s, 0.0];
@@ -254,12 +254,12 @@ async fn round(pairs: &mut [Pair], dice: &mut Dice) {
         let before = (pair.truth)();
         sleep(Duration::from_secs(2)).await;
         let crept = (pair.truth)().separation(before).degrees();
-        // A coast below the resolution of the readings cannot be known.
+        // Readings cannot show a coast below their resolution.
         assert!(crept < pair.coarse_deg, "{}: it still turns: {crept}", pair.name);
     }
 }
 
-/// Resident memory, MB.
+/// Returns the resident memory, MB.
 fn memory_mb() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;

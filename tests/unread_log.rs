@@ -1,4 +1,4 @@
-//! The program goes on, and comes to its end, when nobody reads its log.
+//! The program without a reader of its log: it keeps running, and it ends in order.
 
 use std::{
     io::{BufRead as _, BufReader, Read as _, Write as _},
@@ -49,7 +49,7 @@ impl Simulator {
         Self { process, unread, client: BufReader::new(client) }
     }
 
-    /// Reply to a long command that does not exist.
+    /// Sends a long command that does not exist, and returns the reply.
     fn ask(&mut self) -> String {
         let command = encode(&format!("HELLO=,{}", "x".repeat(900)));
         self.client.get_mut().write_all(&command).expect("the unit takes a command");
@@ -65,7 +65,7 @@ impl Simulator {
         }
     }
 
-    /// Asks the program to end; returns how it ended.
+    /// Asks the program to end, and returns its exit status.
     fn end(&mut self) -> ExitStatus {
         let id = self.process.id().to_string();
         let told = Command::new("kill").args(["-TERM", &id]).status().expect("a signal");

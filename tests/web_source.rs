@@ -20,8 +20,8 @@ const LIMITS: Limits = Limits {
     file_bytes: 1000,
 };
 
-/// A server that gives one answer to one request, and holds the connection until `end` is
-/// gone if `answer` is empty. Returns its address.
+/// Starts a server that gives one answer to one request. If `answer` is empty, the server holds the
+/// connection until `end` closes. Returns its address.
 fn serve(answer: Vec<u8>, end: mpsc::Receiver<()>) -> String {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let url = format!("http://{}/tle?GROUP=weather%2C2", listener.local_addr().unwrap());
@@ -32,12 +32,12 @@ fn serve(answer: Vec<u8>, end: mpsc::Receiver<()>) -> String {
         let first = head.next().unwrap_or_default();
         head.for_each(drop);
         if answer.is_empty() {
-            // Never sent: ends with the test.
+            // The channel never carries a message; it closes with the test.
             let _ = end.recv();
         }
         let answer =
             if first.starts_with("GET /tle?GROUP=weather%2C2 ") { &answer[..] } else { &[] };
-        // The client may have left.
+        // Ignore errors: the client may have left.
         let _ = stream.write_all(answer);
     };
     thread::Builder::new().name("server".to_owned()).spawn(serve).unwrap();
@@ -52,7 +52,7 @@ fn answer(status: &str, headers: &str, body: &[u8]) -> Vec<u8> {
     [head.as_bytes(), body].concat()
 }
 
-/// Result of a request to a server that gives `answer`.
+/// Requests elements from a server that gives `answer`, and returns the result.
 fn get(answer: Vec<u8>, limits: Limits, cancel: &CancellationToken) -> Result<Vec<u8>, FetchError> {
     let (_hold, end) = mpsc::sync_channel(0);
     let source = ElementSource::Web { url: serve(answer, end) };
@@ -95,7 +95,7 @@ fn a_server_that_stalls_is_left_by_limit_and_by_cancel() {
     let nobody = CancellationToken::new();
     let file = Duration::from_millis(300);
     let error = get(Vec::new(), Limits { file, ..LIMITS }, &nobody).unwrap_err();
-    // Two clocks run: that of the request, and that of the fetch.
+    // The request has one time limit and the fetch has another.
     assert!(
         matches!(
             error,

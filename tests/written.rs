@@ -1,4 +1,4 @@
-//! Every command and event of a station survives serialization.
+//! Serialization of every command and event of a station.
 
 use azel::{
     astro::{Angle, AzEl, Offset, TrackOffsets},
@@ -36,7 +36,7 @@ fn noon() -> Timestamp {
     "2026-08-12T12:00:00.123456789Z".parse().unwrap()
 }
 
-/// One of each and no more: a new one does not compile before it is listed here.
+/// Returns one of each command and no more. A new command does not compile until this list has it.
 #[expect(clippy::too_many_lines, reason = "one line a command")]
 fn commands_of_antennas() -> Vec<driver::Command> {
     use azel::contract::driver::Command as C;

@@ -28,7 +28,7 @@ pub(crate) struct TestClock {
 }
 
 impl TestClock {
-    /// A clock that shows `utc_origin` now.
+    /// Returns a clock that shows `utc_origin` now.
     pub(crate) fn new(utc_origin: Timestamp) -> Self {
         Self {
             utc_origin,
@@ -39,11 +39,11 @@ impl TestClock {
         }
     }
 
-    /// The clock in the form that a session takes.
+    /// Returns the clock in the form that a session takes.
     pub(crate) fn clock(&self) -> Clock {
         let (utc, asleep) = (self.clone(), self.clone());
         let clock = Clock::new(move || {
-            // In paused time a loop that never sleeps would go on for ever.
+            // In paused time, a loop that never sleeps would run forever.
             let readings = utc.readings.fetch_add(1, Ordering::Relaxed);
             assert!(readings < MAX_READINGS, "a busy loop");
             add_seconds(utc.utc(), utc.ahead_s.load(Ordering::Relaxed) as f64)
@@ -51,7 +51,7 @@ impl TestClock {
         clock.sleeping(move || Duration::from_secs(asleep.asleep_s.load(Ordering::Relaxed)))
     }
 
-    /// True UTC, whatever the clock shows.
+    /// Returns true UTC, even if the clock shows another time.
     pub(crate) fn utc(&self) -> Timestamp {
         add_seconds(self.utc_origin, (Instant::now() - self.started).as_secs_f64())
     }
@@ -61,13 +61,13 @@ impl TestClock {
         self.ahead_s.store(ahead_s, Ordering::Relaxed);
     }
 
-    /// Lets the computer sleep: UTC goes on meanwhile, the steady clock stands.
+    /// Simulates `seconds` of sleep: UTC advances, but the steady clock stands still.
     pub(crate) fn sleep_for(&self, seconds: u32) {
         self.ahead_s.fetch_add(i64::from(seconds), Ordering::Relaxed);
         self.asleep_s.fetch_add(u64::from(seconds), Ordering::Relaxed);
     }
 
-    /// Number of readings so far.
+    /// Returns the number of readings up to this call.
     pub(crate) fn readings(&self) -> u64 {
         self.readings.load(Ordering::Relaxed)
     }

@@ -9,7 +9,7 @@ impl Dice {
         Self(seed)
     }
 
-    /// Seed of the numbers from here on.
+    /// Returns the seed that reproduces the numbers from here on.
     pub(crate) fn seed(&self) -> u64 {
         self.0
     }

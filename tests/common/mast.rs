@@ -2,8 +2,8 @@
 
 use azel::station::{Entered, KeepOut};
 
-/// A mast that nothing may enter, given by the corners of its outline in azimuth and
-/// elevation, degrees, with a margin of one degree.
+/// Returns a hard keep-out with a margin of one degree around an outline. Its corners are azimuth
+/// and elevation, degrees.
 pub(crate) fn mast(corners_deg: &[(f64, f64)]) -> KeepOut {
     KeepOut {
         name: "mast".to_owned(),

@@ -22,7 +22,7 @@ pub(crate) struct Network {
 }
 
 impl Network {
-    /// Opens links made by `link` while the network is on.
+    /// Returns a dial that opens links made by `link` while the network is on.
     pub(crate) fn dial(&self, mut link: impl FnMut() -> Box<dyn Stream> + Send + 'static) -> Dial {
         let network = self.clone();
         Box::new(move || {
@@ -35,18 +35,17 @@ impl Network {
         })
     }
 
-    /// Refuses new links while it is off.
+    /// Sets whether the network refuses new links.
     pub(crate) fn set_off(&self, is_off: bool) {
         self.is_off.store(is_off, Ordering::Relaxed);
     }
 
-    /// Times of all dials.
     pub(crate) fn dials(&self) -> Vec<Instant> {
         self.dials.lock().unwrap().clone()
     }
 }
 
-/// A link that the unit serves.
+/// Returns a link that the unit serves.
 pub(crate) fn link<U: Unit>(control: &Control<U>) -> Box<dyn Stream> {
     let (near, far) = tokio::io::duplex(4096);
     let control = control.clone();

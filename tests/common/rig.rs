@@ -18,15 +18,15 @@ use super::{
     network::{self, Network},
 };
 
-/// Interval at which the operator looks, unless a test sets another.
+/// Default interval at which the operator looks at the snapshot.
 const LOOK: Duration = Duration::from_millis(10);
 
-/// A session with the controller of `antenna`, and its handle.
+/// Creates a session with the controller of `antenna`, and its handle.
 pub(crate) fn session(antenna: &Antenna, dial: Dial, clock: Clock) -> (Session, AntennaHandle) {
     indebted_session(antenna, dial, clock, Debts::default())
 }
 
-/// Like [`session`], with records of owed STOPs in `debts`.
+/// Creates a session as [`session`] does, with records of owed STOPs in `debts`.
 pub(crate) fn indebted_session(
     antenna: &Antenna,
     dial: Dial,
@@ -36,8 +36,8 @@ pub(crate) fn indebted_session(
     Session::new(antenna.controller(), antenna, dial, clock, Arc::new(|| {}), debts)
 }
 
-/// An operator in front of a running session. The tests of each make add the start of
-/// their unit and session, and the record of received commands.
+/// Operator in front of a running session. The tests of each make add the start of their unit and
+/// session, and the record of received commands.
 pub(crate) struct Rig<C> {
     pub(crate) control: C,
     pub(crate) clock: TestClock,
@@ -60,7 +60,7 @@ impl<U: Unit> Rig<Control<U>> {
         Self::over(control, utc_origin, network::link, session)
     }
 
-    /// Like [`Self::new`], with links made by `link`.
+    /// Runs a session as [`Self::new`] does, with links made by `link`.
     pub(crate) fn over(
         control: Control<U>,
         utc_origin: Timestamp,
@@ -82,7 +82,7 @@ impl<U: Unit> Rig<Control<U>> {
         }
     }
 
-    /// Changes the interval of the operator's looks.
+    /// Sets the interval at which the operator looks.
     pub(crate) fn looking_every(self, look: Duration) -> Self {
         Self { look, ..self }
     }
@@ -100,7 +100,7 @@ impl<U: Unit> Rig<Control<U>> {
     }
 
     pub(crate) fn send(&self, command: Command) {
-        // JSON has no such number, and the gate lets none pass.
+        // JSON cannot represent NaN, and the gate refuses NaN.
         if !format!("{command:?}").contains("NaN") {
             comes_back(&command);
         }
@@ -111,15 +111,15 @@ impl<U: Unit> Rig<Control<U>> {
         self.handle().stop();
     }
 
-    /// Drops the handle, as when the window is gone.
+    /// Drops the handle, as a closed window does, and waits for the end of the session.
     pub(crate) async fn drop_handle(&mut self) {
         drop(self.handle.take());
         (&mut self.session).await.unwrap();
-        // The far end reads what was written last.
+        // Give the unit time to read the last bytes of the session.
         sleep(LOOK).await;
     }
 
-    /// Switches the unit's network on or off; the metal goes on.
+    /// Switches the unit's network on or off; a moving antenna keeps moving.
     pub(crate) fn set_off(&self, is_off: bool) {
         self.network.set_off(is_off);
         if is_off {
@@ -127,7 +127,6 @@ impl<U: Unit> Rig<Control<U>> {
         }
     }
 
-    /// Times of all dials.
     pub(crate) fn dials(&self) -> Vec<Instant> {
         self.network.dials()
     }
@@ -142,7 +141,7 @@ impl<U: Unit> Rig<Control<U>> {
         }
     }
 
-    /// Events since the last call, without those that [`Self::until_event`] took.
+    /// Returns the events since the last call, without those that [`Self::until_event`] took.
     pub(crate) fn events(&mut self) -> Vec<Event> {
         self.collect();
         std::mem::take(&mut self.events)
@@ -156,7 +155,7 @@ impl<U: Unit> Rig<Control<U>> {
         }
     }
 
-    /// Waits until the snapshot fulfils the condition; `limit_s` seconds at most.
+    /// Waits at most `limit_s` seconds until the snapshot fulfils the condition.
     pub(crate) async fn until(
         &mut self,
         what: &str,
@@ -171,8 +170,8 @@ impl<U: Unit> Rig<Control<U>> {
         }
     }
 
-    /// Waits for an event, `limit_s` seconds at most, and takes the first such one; all others
-    /// stay.
+    /// Waits at most `limit_s` seconds for a matching event and takes the first one. All other
+    /// events stay.
     pub(crate) async fn until_event(
         &mut self,
         limit_s: u64,
@@ -193,7 +192,7 @@ impl<U: Unit> Rig<Control<U>> {
         self.until("up", limit_s, |shown| matches!(shown.link, LinkState::Up { .. })).await;
     }
 
-    /// Keeps a jog key down.
+    /// Holds a jog key down, which repeats its command every 0.1 s.
     pub(crate) async fn hold(&mut self, rates_deg_s: [f64; 2], seconds: f64) {
         let end = Instant::now() + Duration::try_from_secs_f64(seconds).unwrap();
         while Instant::now() < end {

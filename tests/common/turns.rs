@@ -1,4 +1,4 @@
-//! Processor time of the turns of a task.
+//! Processor time of each turn (each poll) of a task.
 
 use std::{
     cell::RefCell,
@@ -11,16 +11,16 @@ use std::{
 
 use nix::time::ClockId;
 
-/// A task that takes longer in one turn keeps the other antennas from being served, even where the
-/// tests are not optimised.
+/// Max processor time of one turn, also in unoptimised tests. A longer turn delays the other
+/// antennas.
 const MAX_TURN: Duration = Duration::from_millis(500);
 
-/// Processor time of this thread.
+/// Returns the processor time that this thread has used.
 fn spent() -> Duration {
     ClockId::CLOCK_THREAD_CPUTIME_ID.now().map(Duration::from).unwrap_or_default()
 }
 
-/// Runs `work`, and hands the processor time of each of its turns to `take`.
+/// Runs `work`, and hands the processor time of each turn to `take`.
 pub(crate) async fn timed<F: Future>(work: F, mut take: impl FnMut(Duration)) -> F::Output {
     let mut work = pin!(work);
     poll_fn(move |context| {
@@ -32,7 +32,7 @@ pub(crate) async fn timed<F: Future>(work: F, mut take: impl FnMut(Duration)) ->
     .await
 }
 
-/// How many turns took how much processor time, to 10 microseconds.
+/// Number of turns by processor time, in steps of 10 microseconds.
 #[derive(Clone, Default)]
 pub(crate) struct Turns(BTreeMap<u64, u64>);
 
@@ -55,7 +55,7 @@ impl Turns {
         self.exceeded_by_ms(0.0)
     }
 
-    /// Time that no more than a share of the turns exceeds, milliseconds.
+    /// Returns the time that at most the fraction `share` of the turns exceeds, milliseconds.
     fn exceeded_by_ms(&self, share: f64) -> f64 {
         let mut left = ((1.0 - share) * self.count() as f64).ceil() as u64;
         let reached = self.0.iter().find(|(_, count)| {
@@ -78,12 +78,12 @@ thread_local! {
     static MEASURED: RefCell<Turns> = RefCell::default();
 }
 
-/// The turns on this thread that [`measured`] has seen since the last call.
+/// Returns the turns on this thread that [`measured`] has recorded since the last call.
 pub(crate) fn take_measured() -> Turns {
     MEASURED.take()
 }
 
-/// Runs `work`, which must return soon from each of its turns.
+/// Runs `work` and fails if one of its turns takes longer than [`MAX_TURN`].
 pub(crate) async fn measured<F: Future>(work: F) -> F::Output {
     timed(work, |turn| {
         assert!(turn < MAX_TURN, "one turn took {turn:?} of processor time");

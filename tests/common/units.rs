@@ -1,4 +1,4 @@
-//! One simulated unit of each make in memory, and what is shown of antennas that are linked to them.
+//! One simulated unit of each make in memory, and waits for the snapshots of their antennas.
 
 use std::{
     sync::{Arc, LazyLock},
@@ -27,16 +27,16 @@ use azel::{
 use jiff::Timestamp;
 use tokio::time;
 
-/// Elements of the favourites. To read them takes long by a clock at speed.
+/// Elements of the favourites, read once because reading takes long on an accelerated clock.
 pub(crate) static FAVOURITES: LazyLock<Vec<Elements>> = LazyLock::new(|| {
     let catalog = bundled().unwrap();
     let favourites = Station::default().favourites.numbers();
     favourites.iter().filter_map(|number| catalog.get(*number).cloned()).collect()
 });
 
-/// Longer than any step takes by tokio's clock, which is paused but for live stations.
+/// Time limit of any wait, by tokio's clock. Only live stations run without pausing this clock.
 const PATIENCE: Duration = Duration::from_hours(6);
-/// Interval of looks by that clock.
+/// Interval between two looks at a snapshot, by tokio's clock.
 pub(crate) const LOOK: Duration = Duration::from_millis(50);
 
 pub(crate) fn start() -> Timestamp {
@@ -58,9 +58,9 @@ impl Units {
         Self::holding(clock, &FAVOURITES)
     }
 
-    /// Those of which the Satrak has these elements in its file.
+    /// Creates the units; the Satrak has `elements` in its element file.
     pub(crate) fn holding(clock: &Clock, elements: &[Elements]) -> Self {
-        // Their clocks begin with what was read: by a clock that runs meanwhile they would be late.
+        // Load the favourites before reading the start time: loading takes long on a running clock.
         LazyLock::force(&FAVOURITES);
         let start = clock.now().utc;
         let pair = rotator_genius::Options {
@@ -87,7 +87,7 @@ impl Units {
             let (units, name) = (units.clone(), name.clone());
             tokio::spawn(async move {
                 match &*name {
-                    // A unit without an antenna is called by its address.
+                    // Azel names a unit without an antenna by its address.
                     "Dish" | "dish:1" => units.dish.serve(far).await,
                     "Mast" => units.mast.serve(far).await,
                     _ => units.horn.serve(far).await,
@@ -111,7 +111,7 @@ impl Units {
     }
 }
 
-/// A station with an antenna of each make.
+/// Returns a station with an antenna of each make.
 pub(crate) fn station() -> Station {
     let mut station = Station {
         antennas: vec![
@@ -132,7 +132,7 @@ pub(crate) async fn until<T>(what: &str, found: impl FnMut() -> Option<T>) -> T 
     until_looking(LOOK, what, found).await
 }
 
-/// Like [`until`], with another time between two looks.
+/// Waits as [`until`] does, with `pause` between two looks.
 pub(crate) async fn until_looking<T>(
     pause: Duration,
     what: &str,
@@ -154,7 +154,8 @@ pub(crate) fn antenna(client: &Client, name: &str) -> Option<(AntennaId, Antenna
     Some((antenna.id(), AntennaStatus::new(antenna)))
 }
 
-/// Waits until the antenna has been measured; connects an RC2000C for it.
+/// Waits for the first measured position of the antenna, and connects the antenna if its link is
+/// off.
 pub(crate) async fn measured(client: &Client, name: &str) -> AntennaId {
     let looked = || {
         let (id, status) = antenna(client, name)?;

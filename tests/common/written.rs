@@ -4,8 +4,8 @@ use std::fmt::Debug;
 
 use serde::{Serialize, de::DeserializeOwned};
 
-/// Serializes `value` and reads it back. The two are compared by their `Debug` text, which
-/// hides secrets: only they are left out of the serialization.
+/// Serializes `value`, reads it back and fails if the two differ. The function compares their
+/// `Debug` texts, which hide secrets, because secrets are not serialized.
 pub(crate) fn comes_back<T: Serialize + DeserializeOwned + Debug>(value: &T) -> T {
     let text = serde_json::to_string(value).unwrap_or_else(|error| panic!("{error}: {value:?}"));
     let back: T =

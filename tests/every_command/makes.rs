@@ -1,4 +1,4 @@
-//! The simulated units that every command is given to.
+//! Simulated units that the tests give every command to.
 
 use std::{future::Future, pin::Pin};
 
@@ -30,15 +30,15 @@ pub(super) enum Sent {
 
 pub(super) type Connecting<U> = Pin<Box<dyn Future<Output = Rig<Control<U>>>>>;
 
-/// A make, and how to tell what its unit received and does.
+/// Make of a unit, with functions that classify the requests and the motion of the unit.
 pub(super) struct Make<U: Unit> {
-    /// A session that has read its unit, which stands.
+    /// Start of a session that has read its unit; the antenna stands.
     pub(super) connect: fn() -> Connecting<U>,
     text: fn(&U::Request) -> String,
     sent: fn(&str) -> Sent,
     moves: fn(&U::Snapshot) -> bool,
     antenna: fn() -> Antenna,
-    /// A question would take the panel from the person who works on the unit.
+    /// `true` if a question would take the panel from the person who works on the unit.
     pub(super) waits_for_word: bool,
     pub(super) commands: Vec<Command>,
 }
@@ -51,7 +51,7 @@ impl<U: Unit> Make<U> {
         text.map(|text| ((self.sent)(&text), text)).collect()
     }
 
-    /// The bounds of the antenna with a mast where it starts.
+    /// Returns the bounds of the antenna with a mast at its start position.
     pub(super) fn within_a_mast(&self) -> Bounds {
         let corners_deg = [(150.0, -5.0), (200.0, -5.0), (200.0, 60.0), (150.0, 60.0)];
         let station = Station { keep_outs: vec![mast(&corners_deg)], ..Station::default() };
@@ -146,7 +146,7 @@ pub(super) fn genius() -> Make<impl Unit> {
 }
 
 pub(super) fn rc2000c() -> Make<impl Unit> {
-    // It has no settings, and nothing that could show the refusal of a change.
+    // The RC2000C has no settings, so no change can show a refusal.
     let none = change("none", "none", Value::Flag(true));
     Make {
         connect: || {

@@ -25,18 +25,18 @@ use azel::{
 };
 use jiff::Timestamp;
 
-/// Samples in place of the values that depend on the make.
+/// Sample values that depend on the make.
 pub(super) struct Values {
     pub(super) pass: OnBoardPass,
     pub(super) site: Site,
     pub(super) act: &'static str,
     pub(super) change: Change,
-    /// A settings group that a session does not read by itself.
+    /// Settings group that a session reads only on request.
     pub(super) group: &'static str,
     pub(super) question: &'static str,
 }
 
-/// A list of samples by their patterns. A new variant does not compile before it has one.
+/// List of samples by their patterns. A new variant does not compile until it has a sample.
 macro_rules! samples {
     ($($pattern:pat => $sample:expr,)*) => {{
         let samples = vec![$({
@@ -53,14 +53,14 @@ macro_rules! samples {
     }};
 }
 
-/// Name of the variant of a command.
+/// Returns the name of a command's variant; `AutoTrack` keeps its value.
 pub(super) fn name(command: &Command) -> String {
     let text = format!("{command:?}");
     let end = text.find(['(', ' ']).filter(|_| !text.starts_with("AutoTrack"));
     text[..end.unwrap_or(text.len())].to_owned()
 }
 
-/// A lock-out by the person who works on the unit.
+/// Returns a lock-out by the person who works on the unit.
 pub(super) fn lock_out() -> LockOut {
     LockOut {
         operator: "Ada".to_owned(),
@@ -69,7 +69,7 @@ pub(super) fn lock_out() -> LockOut {
     }
 }
 
-/// A direction that every simulated unit reaches, away from where it starts.
+/// Returns a direction that every simulated unit reaches, away from its start.
 pub(super) fn elsewhere() -> Pointing {
     Pointing {
         azimuth: Some(Angle::from_degrees(100.0)),
@@ -77,13 +77,13 @@ pub(super) fn elsewhere() -> Pointing {
     }
 }
 
-/// Goes to [`elsewhere`], which takes some time.
+/// Returns a command to go to [`elsewhere`], which takes some time.
 pub(super) fn go_elsewhere() -> Command {
     let Pointing { azimuth, elevation } = elsewhere();
     Command::Position { azimuth, elevation }
 }
 
-/// One of each, in the order of [`Command`].
+/// Returns one of each command, in the order of [`Command`].
 pub(super) fn commands(values: &Values) -> Vec<Command> {
     use azel::contract::driver::Command as C;
     let target = Target::Fixed(AzEl::from_degrees(110.0, 40.0));
@@ -132,13 +132,13 @@ pub(super) fn commands(values: &Values) -> Vec<Command> {
     }
 }
 
-/// A program that is not connected.
+/// Returns the address of a program that is not connected.
 fn program() -> SocketAddr {
     "127.0.0.1:40000".parse().unwrap()
 }
 
-/// One of each command to a station, in the order of [`engine::Command`], without those to an antenna.
-/// None of them reaches a network.
+/// Returns one of each command to a station, in the order of [`engine::Command`], without antenna
+/// commands. None of these commands reaches a network.
 pub(super) fn commands_of_stations(
     antenna: AntennaId,
     pass: PassListKey,

@@ -17,12 +17,12 @@ use crate::common::rig::Rig;
 /// Interval of the operator's looks.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// A command that is given to a session.
+/// Command given to the session of one unit.
 struct Trial<'a, U: Unit> {
     make: &'a Make<U>,
     command: &'a Command,
     rig: Rig<Control<U>>,
-    /// Number of requests to the unit before it.
+    /// Number of requests that the unit received before the command.
     before: usize,
 }
 
@@ -36,7 +36,7 @@ struct Outcome {
 }
 
 impl Outcome {
-    /// Refusals that the operator sees.
+    /// Returns the refusals that the operator sees.
     fn refusals(&self) -> Vec<&Refusal> {
         let refusals = self.events.iter().filter_map(|event| match event {
             Event::NotSent(refusal) | Event::OffsetRefused(refusal) => Some(refusal),
@@ -45,7 +45,7 @@ impl Outcome {
         refusals.collect()
     }
 
-    /// The error of a change of settings, as it is shown.
+    /// Returns the shown error of a change of settings.
     fn write_error(&self, command: &Command) -> Option<WriteError> {
         let Command::WriteSettings(change) = command else { return None };
         let written = self.shown.state.groups.get(change.group)?.written.as_ref()?;
@@ -56,14 +56,14 @@ impl Outcome {
         self.received.iter().any(|(sent, _)| *sent == kind)
     }
 
-    /// Requests other than questions.
+    /// Returns the requests other than questions.
     fn orders(&self) -> Vec<&(Sent, String)> {
         self.received.iter().filter(|(sent, _)| *sent != Sent::Question).collect()
     }
 }
 
 impl<'a, U: Unit> Trial<'a, U> {
-    /// A session whose antenna stands, in the mode in which the command would move it.
+    /// Starts a session whose antenna stands, in the mode that the command needs for a motion.
     async fn at_rest(make: &'a Make<U>, command: &'a Command) -> Self {
         let mut rig = (make.connect)().await.looking_every(LOOK);
         let by_hand = matches!(
@@ -76,7 +76,7 @@ impl<'a, U: Unit> Trial<'a, U> {
         Self { make, command, rig, before: 0 }
     }
 
-    /// A session whose antenna moves: to a direction, or by hand if the command ends that.
+    /// Starts a session whose antenna moves to a direction, or by hand if the command ends a jog.
     async fn moving(make: &'a Make<U>, command: &'a Command) -> Self {
         let mut trial = Self::at_rest(make, command).await;
         if *command == Command::EndJog {
@@ -92,7 +92,7 @@ impl<'a, U: Unit> Trial<'a, U> {
         trial
     }
 
-    /// Returns `true` if the unit received a late question that the session does not ask by itself.
+    /// Returns `true` if the unit received a late question that only this command asks.
     fn asks_late(&self, later: &Outcome) -> bool {
         let Command::Ask(question) = self.command else { return false };
         let asked = |received: &[(Sent, String)]| received.iter().any(|(_, text)| text == question);
@@ -100,7 +100,7 @@ impl<'a, U: Unit> Trial<'a, U> {
         asked(&later.received) && !asked(&all[..self.before])
     }
 
-    /// Gives the command.
+    /// Sends the command and notes the number of earlier requests.
     fn give(&mut self) {
         self.before = self.rig.control.received().len();
         self.rig.send(self.command.clone());
@@ -116,7 +116,7 @@ impl<'a, U: Unit> Trial<'a, U> {
     }
 }
 
-/// Differences from the table, all in one message.
+/// Differences from the table, collected for one message.
 #[derive(Default)]
 struct Faults(Vec<String>);
 
@@ -129,7 +129,8 @@ impl Faults {
     }
 }
 
-/// At rest only a command that moves sends a motion. Returns `true` if this one does.
+/// Checks that at rest only a moving command sends a motion. Returns `true` if this command sends
+/// one.
 async fn at_rest<U: Unit>(make: &Make<U>, command: &Command, faults: &mut Faults) -> bool {
     let row = command.row();
     let mut trial = Trial::at_rest(make, command).await;
@@ -142,17 +143,17 @@ async fn at_rest<U: Unit>(make: &Make<U>, command: &Command, faults: &mut Faults
     is_moved
 }
 
-/// In motion a command that stops ends it, and no other that moves nothing does.
+/// Checks that a stopping command ends a motion, and that a command without motion does not.
 async fn in_motion<U: Unit>(make: &Make<U>, command: &Command, faults: &mut Faults) {
     let mut trial = Trial::moving(make, command).await;
     trial.give();
-    // A jog would soon end by itself.
+    // Look early: a jog ends soon unless a key repeats it.
     let at_once = trial.outcome(0.1).await;
     let outcome = trial.outcome(4.0).await;
     let is_moving = make.moves(&trial.rig);
     match command.row().effect {
         Effect::Moves => return,
-        // It ends what the unit may begin by itself, and not a motion from here.
+        // This command ends only motions that the unit may begin, not a motion that Azel commanded.
         Effect::Stops if *command == Command::AutoTrack(false) => {}
         Effect::Stops => {
             let is_stopped = at_once.has(Sent::Stop) && !is_moving;
@@ -165,7 +166,7 @@ async fn in_motion<U: Unit>(make: &Make<U>, command: &Command, faults: &mut Faul
     faults.check(!outcome.has(Sent::Motion), command, "sends a motion", &outcome);
 }
 
-/// Without a link, while the antenna moves as far as is known.
+/// Checks a command without a link, while the antenna moved at the last reading.
 async fn without_a_link<U: Unit>(make: &Make<U>, command: &Command, faults: &mut Faults) {
     let row = command.row();
     let mut trial = Trial::moving(make, command).await;
@@ -197,7 +198,7 @@ async fn without_a_link<U: Unit>(make: &Make<U>, command: &Command, faults: &mut
     faults.check(may_stop || !later.has(Sent::Stop), command, "ends the motion", &later);
 }
 
-/// A unit that is locked out gets only questions and STOP.
+/// Checks that a locked-out unit receives only questions and STOP.
 async fn locked_out<U: Unit>(
     make: &Make<U>,
     command: &Command,
@@ -228,7 +229,7 @@ async fn locked_out<U: Unit>(
             let is_told = refusals == [&locked] || refusals == [&Refusal::NotOffered];
             is_told || outcome.write_error(command) == Some(WriteError::LockedOut)
         }
-        // Without a link the session itself refuses it, unless it is dropped.
+        // Without a link, the session refuses the command itself or drops it.
         LockedOut::RefusedAtTheGate => match row.offline {
             Offline::Refused => is_refused_here,
             Offline::Dropped => outcome.events.is_empty(),
@@ -242,7 +243,7 @@ async fn locked_out<U: Unit>(
     for outcome in [&outcome, &later] {
         let is_moved = outcome.has(Sent::Motion) || outcome.has(Sent::Change);
         faults.check(!is_moved, command, state, outcome);
-        // Any question would take the panel from the person who works on it.
+        // Any question would take the panel from the person who works on the unit.
         let is_quiet = !make.waits_for_word || outcome.received.is_empty();
         faults.check(is_quiet, command, "takes the panel", outcome);
     }

@@ -1,4 +1,4 @@
-//! Every command to a station: at rest, while it closes, with automatic operation, and before a STOP.
+//! Every command to a station: at rest, while it closes, with automatic operation, and before STOP.
 
 use std::time::Duration;
 
@@ -68,7 +68,7 @@ impl Stage {
         self.send(Command::Antenna(self.id, command));
     }
 
-    /// Number of motions that the unit was sent.
+    /// Returns the number of motions that the units received.
     fn motions(&self) -> usize {
         let (dish, mast) = (self.scene.units.dish.received(), self.scene.units.mast.received());
         let dish = dish.iter().map(|(_, payload)| satrak_sent(payload));
@@ -86,7 +86,7 @@ impl Stage {
         self.client.snapshot().closing.is_some()
     }
 
-    /// The antenna has left its place for one that is far away, and goes on. `before`: the next command.
+    /// Sends the antenna to a far direction and waits until it moves. `before` is the next command.
     async fn moves(&self, before: &Command) {
         until("the checks of the unit", || {
             self.shown().state.motion_lock.filter(|is_locked| !is_locked)
@@ -109,7 +109,7 @@ impl Stage {
         sleep(Duration::from_secs(2)).await;
     }
 
-    /// The antenna parks, because the station is to close. `before`: the next command.
+    /// Closes the station and waits until the antenna goes to park. `before` is the next command.
     async fn closes(&self, before: &Command) {
         self.moves(before).await;
         let before = self.motions();
@@ -122,11 +122,11 @@ impl Stage {
         sleep(Duration::from_millis(300)).await;
     }
 
-    /// Back to an antenna with a link that stands and that nothing is asked of.
+    /// Unlocks, connects and stops the antenna, and waits until it stands.
     async fn rests(&self) {
         self.order(driver::Command::Unlock);
         self.order(driver::Command::Connect);
-        // A STOP would void them.
+        // A STOP would void the two commands, so wait for their effect.
         until("a link and no lock-out", || {
             let shown = self.shown();
             (shown.link.is_open() && shown.lock_out.is_none()).then_some(())
@@ -143,7 +143,7 @@ impl Stage {
         until("no closing", || (!self.is_closing()).then_some(())).await;
     }
 
-    /// The last refusal of the antenna since `from`, if it was refused for this.
+    /// Returns `true` if the last refusal of the antenna since `from` was for closing.
     fn is_refused_by_closing(&self, from: jiff::Timestamp) -> bool {
         let snapshot = self.client.snapshot();
         let antenna = snapshot.antennas.iter().find(|of| of.id() == self.id).unwrap();
@@ -187,7 +187,7 @@ async fn a_station_that_closes_takes_only_what_the_table_says() {
     assert!(faults.is_empty(), "{faults:#?}");
 }
 
-/// The thread of a station was held up, and nobody may expect the motion any more.
+/// If a station takes a motion up more than two seconds late, the operator no longer expects it.
 #[tokio::test(start_paused = true)]
 async fn a_motion_that_the_station_takes_up_late_is_not_carried_out() {
     for (late_ms, is_moved) in [(1900, true), (2100, false)] {
@@ -274,7 +274,7 @@ async fn stop_voids_what_waits_for_the_station() {
     assert!(faults.is_empty(), "{faults:#?}");
 }
 
-/// An order that a computer without a server refuses.
+/// Returns an upload order that a computer without a server refuses.
 fn order() -> Order {
     let takes = SPECS.iter().find_map(|make| make.element_files).unwrap();
     let catalog = bundled().unwrap();

@@ -1,5 +1,6 @@
-//! A command that still waits when STOP is pressed is void exactly if its row says so: then it leaves no
-//! trace beside that of the STOP, else the same as after it.
+//! Commands that still wait when the operator presses STOP. Each is void exactly if its row says
+//! so, and then leaves only the trace of the STOP. Any other command leaves the same trace as after
+//! STOP.
 
 use std::{collections::BTreeSet, time::Duration};
 
@@ -15,17 +16,17 @@ use super::{
 
 const LOOK: Duration = Duration::from_millis(100);
 
-/// When the command is given.
+/// Time at which the test gives the command.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Given {
     Never,
-    /// It still waits when STOP is pressed.
+    /// Before STOP: the command still waits when STOP is pressed.
     Before,
-    /// Once STOP was taken.
+    /// After the session has taken STOP.
     After,
 }
 
-/// All that shows of a command.
+/// Visible effects of a command.
 #[derive(Debug, PartialEq)]
 struct Trace {
     /// Requests that the unit received, each once.
@@ -40,7 +41,7 @@ struct Trace {
     written: BTreeSet<&'static str>,
 }
 
-/// Returns `true` if the session has to be in another state than at the start.
+/// Returns `true` if the command needs a session in another state than the initial one.
 fn is_prepared_for(command: &Command) -> bool {
     matches!(command, Command::Connect | Command::Unlock | Command::AllowWayOut)
 }
@@ -50,7 +51,7 @@ async fn trace<U: Unit>(make: &Make<U>, command: &Command, given: Given) -> Trac
     match command {
         Command::Connect => rig.send(Command::Disconnect),
         Command::Unlock => rig.send(Command::LockOut(lock_out())),
-        // The antenna is inside of a mast.
+        // Puts the antenna inside a mast.
         Command::AllowWayOut => rig.handle().keep_within(make.within_a_mast()),
         _ => {}
     }
@@ -82,7 +83,7 @@ async fn trace<U: Unit>(make: &Make<U>, command: &Command, given: Given) -> Trac
     }
 }
 
-/// The commands that leave no trace even after STOP.
+/// Returns the commands that leave no trace even after STOP.
 async fn without_a_trace<U: Unit>(make: Make<U>) -> BTreeSet<String> {
     let mut without = BTreeSet::new();
     let plain = trace(&make, &Command::Standby, Given::Never).await;
@@ -112,7 +113,8 @@ async fn voids_what_waits_as_the_table_says() {
         without_a_trace(makes::rc2000c()).await,
     ];
     let nowhere = satrak.iter().filter(|name| genius.contains(*name) && rc2000c.contains(*name));
-    // STOP has ended what they concern, and a link in memory needs no dead-man.
+    // STOP has already ended the motions that these commands concern, and a link in memory needs no
+    // dead-man.
     let expected = [
         "AllowUnguarded",
         "AutoTrack(false)",

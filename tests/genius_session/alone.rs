@@ -1,4 +1,4 @@
-//! One rotator turns the antenna, the other something else.
+//! Pair of rotators of which only one turns the antenna.
 
 use azel::{
     astro::Angle,
@@ -61,7 +61,7 @@ async fn the_other_rotator_is_sent_by_its_action() {
     rig.send(Command::Manual);
     rig.send(send_other(360));
     rig.seconds(1.0).await;
-    // By the limits of the unit 360 is 0, and the long way round.
+    // Within the limits of the unit, 360 means 0, which lies the long way round.
     assert_eq!(rig.orders(), ["|A2360"]);
     assert!(rig.rotator(2).is_turning);
     assert!(rig.shown().state.measured.unwrap().moving());
@@ -72,7 +72,7 @@ async fn the_other_rotator_is_sent_by_its_action() {
 async fn the_other_rotator_is_jogged_over_its_whole_range() {
     let mut rig = Rig::connected(&two_azimuths(), Rotators::First).await;
     rig.send(Command::Manual);
-    // The travel of the mount's elevation does not apply to the other rotator.
+    // The elevation travel of the mount does not apply to the other rotator.
     rig.hold([0.0, 4.0], 1.0).await;
     rig.send(Command::EndJog);
     rig.seconds(2.0).await;
@@ -92,7 +92,7 @@ async fn neither_is_jogged_while_the_other_turns() {
     rig.send(Command::EndJog);
     rig.seconds(0.5).await;
     assert_eq!(rig.orders(), ["|A2200"], "and what runs is not stopped for it");
-    // Back from the stop offset.
+    // Wait until the other rotator stands.
     rig.until_still(60).await;
     rig.hold([4.0, 0.0], 0.5).await;
     assert_eq!(rig.orders(), ["|A2200", "|P1"]);
@@ -172,7 +172,7 @@ async fn an_elevation_rotator_is_no_azimuth() {
     assert!(matches!(events[..], [Event::NotSent(Refusal::Controller(_))]), "{events:?}");
 }
 
-/// Only the azimuth turns; a mast 20 degrees high stands in the way.
+/// Returns bounds with a mast 20 degrees high, for an antenna of which only the azimuth turns.
 fn before_a_mast(from_deg: f64, to_deg: f64) -> Bounds {
     before_a_mast_with(&antenna(Rotators::First), from_deg, to_deg)
 }
@@ -181,7 +181,7 @@ fn before_a_mast_with(antenna: &Antenna, from_deg: f64, to_deg: f64) -> Bounds {
     before_a_mast_between(antenna, (from_deg, to_deg), (5.0, 20.0))
 }
 
-/// One that a beam at the horizon does not touch.
+/// Returns bounds with a mast that a beam at the horizon does not touch.
 fn before_a_high_mast(from_deg: f64, to_deg: f64) -> Bounds {
     let antenna = Antenna { beam_width_deg: 1.0, ..antenna(Rotators::First) };
     before_a_mast_between(&antenna, (from_deg, to_deg), (50.0, 70.0))
@@ -209,7 +209,7 @@ async fn a_keep_out_applies_to_an_azimuth_alone_at_any_elevation() {
         rig.until("it is read", 5, |shown| shown.state.measured.is_some()).await;
         rig.handle().keep_within(before_a_high_mast(110.0, 130.0));
         rig.seconds(1.0).await;
-        // Another program turns it clockwise.
+        // Another program turns the rotator clockwise.
         let mut other = crate::common::network::link(&rig.control);
         other.write_all(b"|P1").await.unwrap();
         let is_told = |event: &Event| matches!(event, Event::Safety(Safety::Forbidden { .. }));
@@ -240,7 +240,7 @@ async fn a_foreign_motion_is_stopped_before_the_beam_enters_a_keep_out() {
     rig.until_event(30, is_told).await;
     rig.seconds(5.0).await;
     let azimuth_deg = rig.axes_deg()[0].unwrap();
-    // By what the axis reads it would be stopped 5 degrees later.
+    // Judged by the axis reading, Azel would stop the rotator 5 degrees later.
     assert!((91.0..96.0).contains(&azimuth_deg), "{azimuth_deg}");
 }
 
@@ -268,7 +268,7 @@ async fn an_azimuth_inside_a_keep_out_is_jogged_out() {
 #[tokio::test(start_paused = true)]
 async fn a_rotator_that_may_turn_over_north_is_judged_both_ways_round() {
     let (north, south) = ((358.0, 362.0), (200.0, 210.0));
-    // Limits on one way round or on both; an axis beyond a limit goes back across it.
+    // Each case has limits on one way round or on both. An axis beyond a limit goes back across it.
     for (limits, (at, target_deg), mast, is_refused) in [
         ([190, 170], (320, 40.0), north, true),
         ([190, 170], (320, 40.0), south, false),

@@ -22,7 +22,7 @@ async fn numbers_are_padded_and_360_stays_360() {
         device.handle.send(to(Some(asked), None)).unwrap();
         device.seconds(0.5).await;
         assert_eq!(device.orders(), [sent], "{asked}");
-        // The unit has whole degrees, and its display shows them.
+        // Azel shows the whole degree that it sent to the unit.
         let aim = device.handle.snapshot().aim.and_then(|aim| aim.azimuth).unwrap().degrees();
         let told: f64 = sent[3..].parse().unwrap();
         assert!((aim - told % 360.0).abs() < 1e-9, "{asked}: {aim}");
@@ -46,7 +46,7 @@ async fn a_newer_wish_replaces_the_one_that_runs() {
     rig.seconds(2.0).await;
     rig.send(to(Some(150.0), Some(30.0)));
     rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;
-    // Reversal: the rotator stands in between.
+    // The rotator stops before it reverses.
     assert_eq!(rig.orders(), ["|A1250", "|A2040", "|S", "|A1150", "|A2030"]);
     assert_eq!(rig.events(), []);
 }
@@ -54,7 +54,6 @@ async fn a_newer_wish_replaces_the_one_that_runs() {
 #[tokio::test(start_paused = true)]
 async fn a_refused_position_is_told_with_the_reason_and_stops_the_other_axis() {
     let mut rig = Rig::pair().await;
-    // The elevation ends at 60 degrees in the unit.
     rig.control.set_fault(Fault::Refuse, true);
     rig.send(to(Some(180.0), Some(20.0)));
     let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;

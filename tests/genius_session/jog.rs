@@ -1,4 +1,4 @@
-//! Jogging: press turns, release stops, and nothing outlives the key.
+//! Jogging: a key press turns a rotator, its release stops it, and no motion outlasts the key.
 
 use std::time::Duration;
 
@@ -185,7 +185,7 @@ async fn the_second_rotator_is_not_jogged_while_the_first_turns() {
     };
     let mut device = Scripted::start(Rotators::First, Box::new(script));
     device.seconds(0.5).await;
-    // Manual begins with a halt, which is not proved here.
+    // Hold sends a STOP that stays unproved, because the first rotator keeps turning.
     device.handle.send(Command::Hold).unwrap();
     device.seconds(0.1).await;
     assert_eq!(device.orders(), ["|S"]);
@@ -199,7 +199,8 @@ async fn one_degree_between_two_questions_is_no_great_rate() {
     let (mut is_turning, mut elevation_deg) = (false, 40);
     let script = move |command: &str| {
         is_turning = (is_turning || command == "|M2") && command != "|S";
-        // A drive at 4 degrees a second may show its next degree at any moment, also just then.
+        // A drive at 4 degrees a second may show its next degree at any moment, also right after
+        // STOP.
         if is_turning && command == "|h" || command == "|S" {
             elevation_deg -= 1;
         }

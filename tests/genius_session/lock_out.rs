@@ -1,4 +1,4 @@
-//! Lock-out of a unit: neither rotator is moved or configured.
+//! Lock-out of a unit: Azel neither moves nor configures its rotators.
 
 use azel::{
     contract::driver::{Command, Event, Intent, Refusal},

@@ -1,4 +1,4 @@
-//! Oddities and faults: the session stays correct with each of them.
+//! Oddities and faults of the unit, which the session handles correctly.
 
 use azel::{
     contract::driver::{Event, LinkState},

@@ -105,7 +105,7 @@ async fn a_rotator_without_a_sensor_is_told_and_not_sent_anywhere() {
     let events = rig.events();
     assert!(matches!(events[..], [Event::NotSent(Refusal::Controller(_))]), "{events:?}");
     assert_eq!(rig.orders(), [""; 0]);
-    // The other axis is still good.
+    // Azel can still move the other axis.
     rig.send(to(Some(180.0), None));
     rig.until_event(20, |event| matches!(event, Event::Arrived(_))).await;
     assert_eq!(rig.orders(), ["|A1180"]);
@@ -124,12 +124,12 @@ async fn both_rotators_are_shown_with_all_that_they_tell() {
     let target = shown.state.readings.iter().find(|reading| reading.label == "Target 1").unwrap();
     assert_eq!(target.text, "213°");
     let share = target.share.unwrap();
-    // After 5 s at 4 degrees a second, with a ramp of a second.
+    // The rotator has turned for 5 s at 4 degrees a second, with a ramp of 1 s.
     assert!((0.3..0.6).contains(&share), "{share}");
     assert!(rig.reading("Heading 1").ends_with("°, turning clockwise"));
 }
 
-/// A pair whose azimuth has lost its sensor, in Manual, 60 degrees up, with these bounds.
+/// Starts a pair with these bounds, in Manual and 60 degrees up, whose azimuth has lost its sensor.
 async fn without_an_azimuth(station: &Station, minimum_elevation_deg: f64) -> Rig {
     let mut elevation = RotatorOptions::elevation();
     elevation.position = WholeDegrees::new(60).unwrap();
@@ -139,7 +139,7 @@ async fn without_an_azimuth(station: &Station, minimum_elevation_deg: f64) -> Ri
     antenna.limits.minimum_elevation_deg = minimum_elevation_deg;
     rig.handle().keep_within(Bounds::new(station, &antenna));
     rig.control.set_fault(Fault::NoSensor(RotatorNumber::One), true);
-    // The mast may be anywhere within its travel by now.
+    // After this time, the azimuth may be anywhere within its travel.
     rig.seconds(100.0).await;
     rig.send(Command::Manual);
     rig.events();

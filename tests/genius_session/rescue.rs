@@ -1,4 +1,4 @@
-//! Outside the limits only STOP ends a motion.
+//! Motions outside the limits, which only STOP ends.
 
 use azel::{
     contract::driver::{Command, Event, Refusal, StopState},
@@ -20,7 +20,7 @@ fn whole(degrees: u16) -> WholeDegrees {
     WholeDegrees::new(degrees).unwrap()
 }
 
-/// The azimuth rotator is 20 degrees beyond its clockwise limit.
+/// Returns options of a pair whose azimuth is 20 degrees beyond its clockwise limit.
 fn outside() -> Options {
     let Options { rotators: [_, elevation], .. } = pair();
     let azimuth = RotatorOptions {
@@ -108,7 +108,7 @@ async fn only_the_stop_of_the_operator_disarms_a_rescue() {
     rig.send(arm());
     rig.send(Command::Manual);
     rig.hold([-4.0, 0.0], 1.0).await;
-    // The halt at the end of a jog is lost, and is repeated.
+    // The unit loses the STOP at the end of the jog, and Azel repeats it.
     rig.control.set_fault(Fault::Silence, true);
     rig.send(Command::EndJog);
     rig.seconds(2.5).await;
@@ -162,7 +162,7 @@ async fn after_a_link_lost_in_a_rescue_the_first_word_is_a_stop() {
     rig.seconds(1.0).await;
     assert_eq!(rig.commands()[before], "|S");
     rig.until_still(4).await;
-    // A rescue ends with its link.
+    // The permission for a rescue ends with the link, so this jog moves nothing.
     rig.hold([4.0, 0.0], 0.5).await;
     assert_eq!(rig.orders(), ["|P1", "|S"]);
 }
@@ -212,6 +212,6 @@ async fn a_limit_byte_without_a_meaning_counts_as_outside() {
     assert_eq!(check.unwrap().state, CheckState::Unknown);
     device.handle.send(to(Some(120.0), None)).unwrap();
     device.seconds(2.0).await;
-    // The held key may have begun a motion.
+    // Azel sends STOP first, because the held key may have begun a motion.
     assert_eq!(device.orders(), ["|S", "|A1120"]);
 }

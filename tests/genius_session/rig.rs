@@ -13,14 +13,14 @@ use jiff::Timestamp;
 
 use crate::common::rig;
 
-/// An antenna whose unit has these rotators.
+/// Returns an antenna whose unit has these rotators.
 pub(crate) fn antenna(rotators: Rotators) -> Antenna {
     let mut antenna = Antenna::genius("Mast", "in memory");
     antenna.connection.put(&ROTATORS, rotators).unwrap();
     antenna
 }
 
-/// Options of an azimuth rotator at 173 degrees and an elevation rotator at the horizon.
+/// Returns options of an azimuth rotator at 173 degrees and an elevation rotator at the horizon.
 pub(crate) fn pair() -> Options {
     Options {
         rotators: [RotatorOptions::default(), RotatorOptions::elevation()],
@@ -28,7 +28,7 @@ pub(crate) fn pair() -> Options {
     }
 }
 
-/// Options of an azimuth rotator with this name and position.
+/// Returns options of an azimuth rotator with this name and position.
 pub(super) fn azimuth(name: &str, position: u16) -> RotatorOptions {
     RotatorOptions {
         name: name.to_owned(),
@@ -37,7 +37,7 @@ pub(super) fn azimuth(name: &str, position: u16) -> RotatorOptions {
     }
 }
 
-/// Command to go to a position; `None` leaves an angle as it is.
+/// Returns a command to go to a position; `None` keeps an angle.
 pub(super) fn to(azimuth_deg: Option<f64>, elevation_deg: Option<f64>) -> Command {
     Command::Position {
         azimuth: azimuth_deg.map(Angle::from_degrees),
@@ -52,14 +52,14 @@ pub(super) fn is_stopping(stop: StopState) -> bool {
 pub(crate) type Rig = rig::Rig<Control>;
 
 impl Rig {
-    /// A running session, not connected yet.
+    /// Starts a session that is not connected yet.
     pub(super) fn start(options: &Options, antenna: &Antenna) -> Self {
         Self::new(Control::new(options), Timestamp::UNIX_EPOCH, |dial, clock| {
             rig::session(antenna, dial, clock)
         })
     }
 
-    /// A session that has read its unit.
+    /// Starts a session and waits until it has read its unit.
     pub(crate) async fn connected(options: &Options, rotators: Rotators) -> Self {
         let mut rig = Self::start(options, &antenna(rotators));
         rig.until("it is read", 5, |shown| shown.state.measured.is_some()).await;
@@ -68,7 +68,7 @@ impl Rig {
         rig
     }
 
-    /// A session with the usual pair of rotators.
+    /// Starts a session with the default pair of rotators.
     pub(super) async fn pair() -> Self {
         Self::connected(&pair(), Rotators::Pair).await
     }
@@ -78,25 +78,25 @@ impl Rig {
         self.until("it stands", limit_s, stands).await;
     }
 
-    /// Shown angles of the two axes, degrees.
+    /// Returns the shown angles of the two axes, degrees.
     pub(super) fn axes_deg(&self) -> [Option<f64>; 2] {
         self.shown().state.measured.unwrap().axes.map(|axis| axis.angle_deg)
     }
 
-    /// Text of a shown reading.
+    /// Returns the text of a shown reading.
     pub(super) fn reading(&self, label: &str) -> String {
         let shown = self.shown();
         let reading = shown.state.readings.iter().find(|reading| reading.label == label);
         reading.map_or_else(String::new, |reading| reading.text.clone())
     }
 
-    /// True state of a rotator, 1 or 2.
+    /// Returns the true state of rotator 1 or 2.
     pub(super) fn rotator(&self, number: usize) -> RotatorState {
         self.control.state().rotators[number - 1]
     }
 
-    /// Commands that the unit received, without questions. A STOP repeated until its proof
-    /// counts once.
+    /// Returns the commands that the unit received, without questions. A STOP repeated until its
+    /// proof counts once.
     pub(super) fn orders(&self) -> Vec<String> {
         let mut orders = self.commands();
         orders.retain(|command| command != "|h");
@@ -104,12 +104,12 @@ impl Rig {
         orders
     }
 
-    /// All commands that the unit received.
+    /// Returns all commands that the unit received, questions included.
     pub(super) fn commands(&self) -> Vec<String> {
         self.control.received().into_iter().map(|(_, command)| command).collect()
     }
 
-    /// Times at which this command came in.
+    /// Returns the times at which the unit received this command.
     pub(super) fn times(&self, command: &str) -> Vec<Instant> {
         let received = self.control.received().into_iter();
         received.filter(|(_, other)| other == command).map(|(at, _)| at).collect()

@@ -21,7 +21,7 @@ use tokio::{
 use super::rig::antenna;
 use crate::common::{clock::TestClock, rig::session};
 
-/// Replies to a command, each after a delay in milliseconds. An empty one closes the connection.
+/// Replies to a command, each after a delay in milliseconds. An empty reply closes the connection.
 pub(super) type Script = Box<dyn FnMut(&str) -> Vec<(u64, Vec<u8>)> + Send>;
 
 /// A session with a scripted peer.
@@ -50,7 +50,7 @@ impl Scripted {
         Self { handle, received, events: Vec::new() }
     }
 
-    /// A peer that answers the first question with `bytes`, and no other.
+    /// Starts a session with a peer that answers only the first question, with `bytes`.
     pub(super) fn raw(bytes: &'static [u8]) -> Self {
         let mut bytes = Some(bytes);
         let script =
@@ -70,17 +70,16 @@ impl Scripted {
         std::mem::take(&mut self.events)
     }
 
-    /// All commands received.
     pub(super) fn sent(&self) -> Vec<String> {
         self.received.lock().unwrap().iter().map(|(_, command)| command.clone()).collect()
     }
 
-    /// All commands received except questions.
+    /// Returns all commands received except questions.
     pub(super) fn orders(&self) -> Vec<String> {
         self.sent().into_iter().filter(|command| command != "|h").collect()
     }
 
-    /// Times at which this command came in.
+    /// Returns the times at which the peer received this command.
     pub(super) fn times(&self, command: &str) -> Vec<Instant> {
         let received = self.received.lock().unwrap();
         received.iter().filter(|(_, other)| other == command).map(|(at, _)| *at).collect()
@@ -111,7 +110,7 @@ async fn serve(
                 tokio::spawn(async move {
                     sleep(Duration::from_millis(delay_ms)).await;
                     let mut writer = writer.lock().await;
-                    // An error is ignored: the session may be gone by then.
+                    // Ignore errors: the session may have ended by then.
                     let _ = if reply.is_empty() {
                         writer.shutdown().await
                     } else {
@@ -123,7 +122,7 @@ async fn serve(
     }
 }
 
-/// A wide status of a pair, azimuth before elevation: whole degrees, directions of the
+/// Returns a wide status of a pair, azimuth before elevation: whole degrees, directions of the
 /// drives, and the limit byte of the first rotator.
 pub(super) fn status(azimuth: u16, elevation: u16, moving: [char; 2], limit: char) -> Vec<u8> {
     let [one, two] = moving;
@@ -134,7 +133,7 @@ pub(super) fn status(azimuth: u16, elevation: u16, moving: [char; 2], limit: cha
     text.chars().map(|c| u8::try_from(c).unwrap()).collect()
 }
 
-/// Answers of a plain unit after 10 ms, to commands that the script leaves alone.
+/// Returns the answer of a plain unit to a command, after 10 ms.
 pub(super) fn plain(command: &str) -> Vec<(u64, Vec<u8>)> {
     let reply = match command.get(1..2) {
         Some("h") => status(100, 10, ['0', '0'], '\0'),

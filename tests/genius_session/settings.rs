@@ -29,7 +29,7 @@ fn offset(degrees: i64) -> (&'static str, Value) {
     ("stop_offset_deg", Value::Integer(degrees))
 }
 
-/// Outcome of the change with this ticket, if it is over.
+/// Returns the outcome of the change with this ticket once the change is over.
 fn outcome(handle: &AntennaHandle, asked: &Change) -> Option<Result<(), WriteError>> {
     let shown = handle.snapshot();
     let written = shown.state.groups.get(asked.group)?.written.as_ref()?;
@@ -78,7 +78,7 @@ async fn a_configuration_goes_out_whole_and_once_and_is_read_back() {
     assert_eq!(rig.orders(), ["|c1270090A03T\u{fc}rm      "]);
     assert_eq!(held(&rig, "rotator_1")["limit_cw_deg"], Value::Integer(270));
     assert_eq!(rig.reading("Rotator 1"), "Türm, azimuth");
-    // The offset of the status is a different value.
+    // The offset in the status is a different value.
     assert_eq!(rig.reading("Offset 1"), "0°");
     let asked = change("rotator_2", [offset(0), ("kind", Value::Choice(0))]);
     assert_eq!(write_settings(&mut rig, asked).await, Ok(()));

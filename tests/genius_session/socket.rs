@@ -16,7 +16,7 @@ use azel::{
 
 use super::rig::{pair, to};
 
-/// Longer than any step here takes.
+/// Time limit of any wait in these tests.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// Waits for wakes of the driver until the snapshot fulfils the condition.
@@ -52,7 +52,7 @@ fn an_antenna_over_tcp_is_read_sent_and_stopped_and_a_second_client_turned_away(
     let second =
         driver.open(&antenna, Bounds::of_antenna(&antenna), Default::default(), None, Box::new(()));
     until(&second, &woken, |shown| {
-        // Closed, or reset when the question comes too late.
+        // The unit closes the link, or resets it if a question arrives too late.
         let LinkState::Lost { reason, .. } = &shown.link else { return false };
         matches!(reason, LinkLoss::Closed | LinkLoss::Broken(_))
     });

@@ -1,4 +1,5 @@
-//! STOP: past everything, never refused, and not over before it is proved.
+//! STOP: Azel sends it before everything else, never refuses it, and ends it only with a proved
+//! standstill.
 
 use azel::{
     clock::Instant,
@@ -105,7 +106,7 @@ async fn a_refused_stop_is_told_and_sent_again() {
 
 #[tokio::test(start_paused = true)]
 async fn flags_of_motion_keep_the_stop_owed_until_the_operator_has_seen_it_stand() {
-    // The angle stays.
+    // The peer reports motion, but its angle stays.
     let script = |command: &str| match command {
         "|h" => vec![(10, status(100, 10, ['1', '0'], '\0'))],
         other => plain(other),

@@ -1,4 +1,4 @@
-//! Readings of standing rotators that change, beside a barrier.
+//! Changing readings of standing rotators, close to a barrier.
 
 use azel::{
     contract::driver::{Event, Safety},
@@ -21,7 +21,7 @@ fn is_forbidden(event: &Event) -> bool {
     matches!(event, Event::Safety(Safety::Forbidden { .. }))
 }
 
-/// A pair with this elevation, whose readings change by noise.
+/// Starts a pair at this elevation, whose readings vary by noise.
 async fn watched(elevation_deg: u16, noise_deg: f64, seed: u64) -> Rig {
     let mut options =
         Options { mechanics: Mechanics { noise_deg, ..Mechanics::default() }, seed, ..pair() };
@@ -55,8 +55,8 @@ async fn a_reading_that_flickers_is_not_stopped_as_a_motion() {
     }
 }
 
-/// Another program turns the elevation down. Returns the true elevation when the motion is stopped,
-/// degrees.
+/// Turns the elevation down from another program. Returns the true elevation when Azel stops the
+/// motion, degrees.
 async fn stopped_at_deg(rig: &mut Rig) -> f64 {
     let mut other = crate::common::network::link(&rig.control);
     other.write_all(b"|M2").await.unwrap();

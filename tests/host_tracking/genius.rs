@@ -17,10 +17,10 @@ use super::{
 
 type Rig = rig::Rig<Control>;
 
-/// Lead before AOS, so that the antenna is there in time.
+/// Lead before AOS, seconds, in which the antenna reaches the start of the pass.
 const LEAD_S: f64 = 180.0;
 
-/// An antenna as fast as the simulated rotators.
+/// Returns an antenna as fast as the simulated rotators.
 pub(super) fn antenna(rotators: Rotators) -> Antenna {
     let mut antenna = Antenna::genius("Mast", "in memory");
     antenna.connection.put(&ROTATORS, rotators).unwrap();
@@ -34,7 +34,7 @@ pub(super) fn antenna(rotators: Rotators) -> Antenna {
     antenna
 }
 
-/// A pair on a mount that flips over the zenith.
+/// Returns a pair on a mount that flips over the zenith.
 fn over() -> Antenna {
     let mut antenna = antenna(Rotators::Pair);
     if let Mount::AzEl { elevation_to_deg, .. } = &mut antenna.mount {
@@ -123,7 +123,7 @@ fn opposite(moving: Moving) -> Moving {
     }
 }
 
-/// Motors wear by reversals, and the relays of their drives by commands.
+/// Reversals wear the motors, and commands wear the relays of their drives.
 #[tokio::test(start_paused = true)]
 async fn a_motor_reverses_only_where_the_path_turns() {
     for stop_offset_deg in [1, 2] {
@@ -147,7 +147,7 @@ async fn close_to_the_zenith_it_slews_in_time() {
     assert!(rms < 2.0 && worst < 8.0, "{rms} {worst}");
 }
 
-/// Azimuths of all go-to commands, degrees.
+/// Returns the azimuths of all go-to commands, degrees.
 fn azimuths(control: &Control) -> Vec<u16> {
     let received = control.received();
     let of = |command: &str| command.strip_prefix("|A1").and_then(|degrees| degrees.parse().ok());
@@ -194,7 +194,7 @@ async fn over_the_zenith_the_sky_shows_where_it_points() {
         let off = at.unwrap().separation(predicted).degrees();
         assert!(off < 4.0 && at.unwrap().elevation_deg() < 90.0, "{at:?} {predicted:?}");
     }
-    // By hand the antenna goes back.
+    // A position command brings the antenna back.
     let (azimuth, elevation) = (Some(predicted.azimuth), Some(predicted.elevation));
     rig.send(Command::Position { azimuth, elevation });
     rig.until_event(120, |event| matches!(event, Event::Arrived(_))).await;

@@ -1,5 +1,5 @@
-//! Detours round keep-outs: over whole passes the measured direction stays outside, and
-//! the target is tracked again on the other side.
+//! Detours round keep-outs: over whole passes the measured direction stays outside, and Azel tracks
+//! the target again on the other side.
 
 use azel::{
     astro::{Angle, AzEl},
@@ -18,7 +18,7 @@ use super::{
 };
 use crate::common::workers::{hold_up_workers, with_one_worker};
 
-/// A keep-out at the middle of the pass: from the ground to 8 degrees above the pass, 8
+/// Returns a keep-out at the middle of the pass: from the ground to 8 degrees above the pass, 8
 /// degrees to both sides.
 fn halfway(scene: &Scene, margin_deg: f64) -> KeepOut {
     let halfway =
@@ -34,8 +34,8 @@ fn mast(azimuth_deg: f64, top: f64, margin_deg: f64) -> KeepOut {
     KeepOut { entered: Entered::GoRound, margin_deg, ..crate::common::mast(&corners) }
 }
 
-/// Least distance of the antenna from all margins during the track, and its distance from
-/// the target at LOS, degrees.
+/// Tracks the pass round `mast`. Returns the min distance of the antenna from all margins, and its
+/// distance from the target at LOS, degrees.
 async fn follow_round<U: Unit>(
     rig: &mut Rig<Control<U>>,
     antenna: &Antenna,
@@ -84,7 +84,7 @@ async fn by_a_genius_that_coasts() {
     let (mut rig, _control) = genius::connected(&genius::options(2), &antenna, &scene).await;
     let [min_deg, off_deg] = follow_round(&mut rig, &antenna, &scene, halfway(&scene, 4.0)).await;
     println!("Genius: {min_deg:.2} outside, at last {off_deg:.2} beside");
-    // The antenna coasts by up to two degrees, which its margin is wider by.
+    // The antenna coasts by up to two degrees; its wider margin allows for them.
     assert!(min_deg > -3.0, "{min_deg}");
     assert!(off_deg < 3.0, "{off_deg}");
 }

@@ -38,8 +38,8 @@ fn offsets<U: Unit>(rig: &Rig<Control<U>>) -> TrackOffsets {
     rig.shown().program_track.as_ref().unwrap().offsets
 }
 
-/// Measured minus plain direction of the target at the time of the measurement, degrees of azimuth
-/// and elevation.
+/// Returns the measured minus the plain direction of the target at the time of the measurement,
+/// degrees of azimuth and elevation.
 fn beside_deg<U: Unit>(rig: &Rig<Control<U>>, scene: &Scene) -> [f64; 2] {
     let measured = rig.shown().state.measured.unwrap();
     let (at, plain) = (measured.direction().unwrap(), target(scene, measured.time));
@@ -67,7 +67,8 @@ fn refusals(events: &[Event]) -> Vec<&Refusal> {
     refused
 }
 
-/// The steps lead the antenna away, zero leads it back, and undo away again.
+/// Checks that offset steps lead the antenna away, zero leads it back, and undo leads it away
+/// again.
 async fn leads_away_and_back<U: Unit>(rig: &mut Rig<Control<U>>, scene: &Scene, within_deg: f64) {
     tracking(rig, scene).await;
     let steps = [Offset::Azimuth(deg(4.0)), Offset::Elevation(deg(3.0))];
@@ -79,7 +80,7 @@ async fn leads_away_and_back<U: Unit>(rig: &mut Rig<Control<U>>, scene: &Scene, 
     assert!((azimuth - 4.0).abs() < within_deg, "{azimuth} {elevation}");
     assert!((elevation - 3.0).abs() < within_deg, "{azimuth} {elevation}");
     assert_eq!(offsets(rig), with(&steps));
-    // The error is that from where it should point, offsets included.
+    // The predicted direction includes the offsets.
     let measured = rig.shown().state.measured.unwrap();
     let predicted = rig.shown().program_track.clone().unwrap().predicted.unwrap();
     let off = measured.direction().unwrap().separation(predicted.direction);
@@ -142,7 +143,7 @@ async fn ahead_in_time_is_where_the_satellite_will_be() {
     assert!(off.degrees() < 0.6, "{off:?}");
 }
 
-/// A mast `away_deg` clockwise of where the pass is at a third of it.
+/// Returns a mast `away_deg` clockwise of the satellite at a third of the pass.
 fn beside_the_pass(scene: &Scene, away_deg: f64) -> KeepOut {
     let third = add_seconds(scene.pass.aos.time, scene.pass.duration_s() / 3.0);
     let at = target(scene, third);
@@ -186,22 +187,22 @@ async fn a_step_into_a_keep_out_is_refused_and_the_old_offsets_stay() {
     }
 }
 
-/// An offset of the azimuth that leads the axes away from a mast may make up for an error of the
-/// mount: then the antenna points where the satellite is, which is inside.
+/// An azimuth offset may lead the axes away from a mast to correct an error of the mount. The
+/// antenna then points at the satellite, which is inside the mast.
 #[tokio::test(start_paused = true)]
 async fn on_the_sky_it_does_not_enter_a_keep_out_that_the_axes_are_led_past() {
     let scene = sky::usual();
     let antenna = rc2000c::antenna(360.0);
     let mut rig = rc2000c::connected(&antenna, &scene).await;
     tracking(&mut rig, &scene).await;
-    // Where the satellite is in half a minute; the axes will be ten degrees beside it.
+    // Direction of the satellite in 40 s; the axes will be nine degrees beside it.
     let soon = target(&scene, add_seconds(rig.clock.utc(), 40.0));
     let (azimuth, elevation) = (soon.azimuth_deg(), soon.elevation_deg());
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     let corners = corners.map(|(az, el)| (azimuth + az, elevation + el));
     let bounds = keep_out(&rig, &antenna, crate::common::mast(&corners));
     let towards = (soon.azimuth - target(&scene, rig.clock.utc()).azimuth).wrapped_180();
-    // Behind the satellite, so that the axes never come there before it does.
+    // The offset keeps the axes behind the satellite, so the satellite enters the keep-out first.
     rig.send(step(Offset::Azimuth(deg(if towards < Angle::ZERO { 9.0 } else { -9.0 }))));
     rig.seconds(5.0).await;
     assert_eq!(refusals(&rig.events()), [] as [&Refusal; 0]);
@@ -232,7 +233,7 @@ async fn beyond_what_the_axes_reach_a_step_is_refused() {
     rig.seconds(5.0).await;
     assert!(matches!(rig.phase(), Some(TrackPhase::Waiting { .. })));
     rig.events();
-    // The pass begins below the minimum elevation; later or earlier it still does.
+    // The pass begins below the minimum elevation, and 0.1 s does not change that.
     rig.send(step(Offset::Time(SignedDuration::from_millis(-100))));
     rig.seconds(0.5).await;
     assert_eq!(rig.events(), []);
@@ -289,7 +290,7 @@ async fn without_a_track_or_after_stop_there_is_nothing_to_offset() {
     tracking(&mut rig, &scene).await;
     rig.send(azimuth());
     rig.seconds(2.0).await;
-    // Requested before the STOP, and void because of it.
+    // The STOP voids this offset, which was requested before.
     rig.send(azimuth());
     rig.stop();
     rig.seconds(10.0).await;
@@ -301,7 +302,7 @@ async fn without_a_track_or_after_stop_there_is_nothing_to_offset() {
     rig.seconds(5.0).await;
     assert_eq!(refusals(&rig.events()), [&Refusal::NoTrack]);
     assert_eq!(rig.shown().state.measured.unwrap().pointing, stood, "nothing moves");
-    // A new track begins without them.
+    // A new track begins without offsets.
     rig.send(Command::ProgramTrack(Box::new(scene.follow())));
     rig.seconds(2.0).await;
     assert!(offsets(&rig).is_none());

@@ -17,18 +17,18 @@ use super::{
 
 type Rig = rig::Rig<Control>;
 
-/// Lead before AOS, so that the antenna is there in time.
+/// Lead before AOS, seconds, in which the antenna reaches the start of the pass.
 const LEAD_S: f64 = 240.0;
 /// Rate of the simulated axes, counts per second.
 const COUNTS_S: f64 = 40.0;
 
-/// An antenna whose azimuth axis travels from north to `azimuth_to_deg` on the 3600 counts
+/// Returns an antenna whose azimuth axis travels from north to `azimuth_to_deg` on the 3600 counts
 /// of the simulated unit.
 pub(super) fn antenna(azimuth_to_deg: f64) -> Antenna {
     antenna_to(azimuth_to_deg, 90.0)
 }
 
-/// An antenna whose elevation axis also travels to `elevation_to_deg`, on 1800 counts.
+/// Returns such an antenna whose elevation axis also travels to `elevation_to_deg`, on 1800 counts.
 fn antenna_to(azimuth_to_deg: f64, elevation_to_deg: f64) -> Antenna {
     let point = |counts, degrees| CountPoint { counts, degrees };
     let calibration = Calibration {
@@ -68,7 +68,7 @@ pub(super) async fn connected(antenna: &Antenna, scene: &Scene) -> Rig {
     rig
 }
 
-/// Tracks the pass of `scene`.
+/// Tracks the pass of `scene`, and fails at an unexpected event.
 async fn over(rig: &mut Rig, scene: &Scene) -> TrackStats {
     rig.events();
     rig.send(Command::ProgramTrack(Box::new(scene.follow())));

@@ -21,7 +21,7 @@ impl<U: Unit> Rig<Control<U>> {
         self.seconds(left_s.max(0.0)).await;
     }
 
-    /// Waits for the end of the tracked pass.
+    /// Waits for the end of the tracked pass and returns its statistics.
     pub(super) async fn until_over(&mut self) -> TrackStats {
         let is_over = |event: &Event| matches!(event, Event::ProgramTrackOver { .. });
         match self.until_event(3000, is_over).await {
@@ -30,7 +30,7 @@ impl<U: Unit> Rig<Control<U>> {
         }
     }
 
-    /// Phase of the track, if there is one.
+    /// Returns the phase of the track, if there is one.
     pub(super) fn phase(&self) -> Option<TrackPhase> {
         self.shown().program_track.as_ref().map(|view| view.phase)
     }

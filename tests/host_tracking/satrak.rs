@@ -1,4 +1,4 @@
-//! A Satrak in program track, although it could track on board.
+//! Satrak in program track, although it could track on board.
 
 use std::{sync::Arc, time::Duration};
 
@@ -30,7 +30,7 @@ fn start(control: Control, antenna: &Antenna, utc_origin: Timestamp) -> Rig {
     .looking_every(rig::LOOK)
 }
 
-/// A session that has read its unit, `lead_s` seconds before the pass of `scene`.
+/// Starts a session that has read its unit, `lead_s` seconds before the pass of `scene`.
 pub(super) async fn connected(antenna: &Antenna, scene: &Scene, lead_s: f64) -> (Rig, Control) {
     let utc_origin = add_seconds(scene.pass.aos.time, -lead_s);
     let control = Control::new(&Options::new(site(), utc_origin));
@@ -80,7 +80,7 @@ async fn a_pass_is_waited_for_followed_and_held_at_its_end() {
     let stats = rig.until_over().await;
     let (rms, worst) = figures("Satrak, usual", stats);
     assert!(rms < 0.15 && worst < 0.6, "{rms} {worst}");
-    // One for each fifth of a degree of either axis, and not more.
+    // Azel sends at most one go-to for each fifth of a degree of either axis.
     assert!(gotos(&control) - sent_before < 900);
     assert!(scene.pass.tca.time < los.time);
     let sent = gotos(&control);
@@ -119,7 +119,7 @@ async fn stop_and_every_other_wish_end_it_for_good() {
     }
 }
 
-/// In program track, in the middle of the usual pass.
+/// Starts a program track and waits for the middle of the default pass.
 async fn following(antenna: &Antenna) -> (Rig, Control, Scene) {
     let scene = sky::usual();
     let (rig, control) = connected(antenna, &scene, 60.0).await;
@@ -136,7 +136,7 @@ fn is_followed(rig: &Rig, control: &Control) -> bool {
         .is_some_and(|predicted| direction(control).separation(predicted.direction).degrees() < 0.6)
 }
 
-/// Another client sends the antenna elsewhere.
+/// Sends the antenna elsewhere from another client.
 async fn send_elsewhere(control: &Control) {
     let (mut near, far) = tokio::io::duplex(4096);
     let unit = control.clone();
@@ -278,7 +278,7 @@ async fn a_second_short_outage_does_not_spare_a_unit_the_comparison() {
     rig.set_off(false);
     rig.until_event(20, |event| matches!(event, Event::Back { .. })).await;
     let sent = gotos(&control);
-    // Before the position is read again.
+    // Lose the link before Azel reads the position again.
     rig.set_off(true);
     rig.seconds(0.1).await;
     rig.set_off(false);
@@ -336,7 +336,8 @@ async fn a_clock_that_is_set_stops_the_following_until_the_operators_word() {
     }
 }
 
-/// The antenna, and the usual pass with one a day later, while the first is tracked.
+/// Starts a program track of two passes, one a day after the other, and waits until Azel tracks the
+/// first.
 async fn tracking_the_first_of_two(after: AfterPass) -> (Rig, Control) {
     let mut antenna = antenna();
     antenna.follow.after = after;
@@ -384,7 +385,7 @@ async fn a_clock_that_is_set_past_the_pass_stops_it_before_anything_else() {
             .map(|(_, payload)| payload)
             .filter(|payload| payload.contains('='))
             .collect();
-        // The last position before the clock was set may be on its way.
+        // The last position before the change of the clock may still be on its way.
         let first = orders.iter().position(|order| order.starts_with("STOP=")).expect("a STOP");
         assert!(orders[first..].iter().all(|order| !order.starts_with("GOTO=")), "{orders:?}");
         assert!(first <= 1 && !control.state().is_moving, "{after:?} {orders:?}");
@@ -476,7 +477,7 @@ async fn a_direction_the_sun_and_the_moon_are_followed_too() {
             let off = direction(&control).separation(predicted.direction).degrees();
             assert!(off < 0.15, "{target:?} {off}");
         }
-        // The targets move by less than 17 degrees in the time.
+        // The targets move by less than 17 degrees during the test.
         assert!(gotos(&control) < 400, "{target:?} {}", gotos(&control));
         if matches!(target, Target::Fixed(_)) {
             assert_eq!(gotos(&control), 1);
@@ -491,7 +492,7 @@ async fn lost_answers_do_not_end_it() {
     control.set_fault(Fault::DropReply, true);
     rig.send(Command::ProgramTrack(Box::new(scene.follow())));
     let (rms, _) = figures("Satrak, every third answer lost", rig.until_over().await);
-    // The session waits for each go-to.
+    // The session waits for the answer to each go-to.
     assert!(rms < 1.2, "{rms}");
 }
 

@@ -6,9 +6,9 @@ use azel::{
     plan::{ProgramTrack, Target},
 };
 
-/// Satellites on low orbits.
+/// Catalog numbers of satellites in low orbits.
 const NUMBERS: [u32; 6] = [43013, 25544, 37849, 25994, 27424, 49260];
-/// Days in which passes are searched for.
+/// Length of the pass search, days.
 const DAYS: f64 = 10.0;
 
 /// A satellite and one of its passes.
@@ -18,7 +18,7 @@ pub(super) struct Scene {
 }
 
 impl Scene {
-    /// Program track of this pass alone.
+    /// Returns a program track of this pass alone.
     pub(super) fn follow(&self) -> ProgramTrack {
         ProgramTrack::new(
             Target::Satellite(Box::new(self.elements.clone())),
@@ -27,7 +27,7 @@ impl Scene {
         )
     }
 
-    /// Azimuths at equal intervals, degrees.
+    /// Returns the azimuths at equal intervals of the pass, degrees.
     fn azimuths_deg(&self) -> Vec<f64> {
         let propagator = Propagator::new(&self.elements).unwrap();
         let look = |step: u32| {
@@ -38,7 +38,7 @@ impl Scene {
         (0..=50).map(look).collect()
     }
 
-    /// Point of the pass at which it crosses north, 0 to 1.
+    /// Returns the fraction of the pass after which it crosses north, 0 to 1.
     fn north(&self) -> Option<f64> {
         let azimuths = self.azimuths_deg();
         let at = azimuths.windows(2).position(|two| (two[1] - two[0]).abs() > 180.0)?;
@@ -68,13 +68,13 @@ fn scenes() -> impl Iterator<Item = Scene> {
     })
 }
 
-/// A pass of medium height that stays away from north.
+/// Returns a pass of medium height that stays away from north.
 pub(super) fn usual() -> Scene {
     let is_it = |scene: &Scene| (35.0..50.0).contains(&scene.max_deg()) && scene.north().is_none();
     scenes().find(is_it).unwrap()
 }
 
-/// A pass whose azimuth crosses north about its middle.
+/// Returns a pass whose azimuth crosses north about its middle.
 pub(super) fn through_north() -> Scene {
     let is_it = |scene: &Scene| {
         (20.0..60.0).contains(&scene.max_deg())
@@ -83,7 +83,7 @@ pub(super) fn through_north() -> Scene {
     scenes().find(is_it).unwrap()
 }
 
-/// A pass that comes within some 2 degrees of the zenith and stays away from north.
+/// Returns a pass that comes within some 2 degrees of the zenith and stays away from north.
 pub(super) fn overhead() -> Scene {
     let is_it = |scene: &Scene| (87.5..88.5).contains(&scene.max_deg()) && scene.north().is_none();
     scenes().find(is_it).unwrap()

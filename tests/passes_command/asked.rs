@@ -1,4 +1,4 @@
-//! Selection of elements and site, and the exit code about it.
+//! Selection of elements and site, with its exit codes.
 
 use super::*;
 
@@ -30,7 +30,7 @@ fn only_what_concerns_the_objects_that_are_asked_for_counts() {
         (&["mixed.json"], &["--catalog-number", "8,5"], 3, &["8: no elements of this", ": 8: "]),
         (&["mixed.json"], &["--name", "damag", "--name", "LLSA"], 3, &["damag: no", "DAMAGED: "]),
         (&["mixed.json"], &["--name", "absent"], 1, &["absent: no elements", "There are no"]),
-        // The newest set of the object is lost.
+        // The newest set of the object is unusable.
         (&["good.json", "newer.json"], &["--catalog-number", "5"], 3, &["SMALLSAT: inclination"]),
         (&["good.json", "page.html"], &[], 3, &["page.html: no elements, it is a web page"]),
         (&["good.json", "page.html"], &["--catalog-number", "5"], 3, &["page.html: no elements"]),
@@ -118,7 +118,7 @@ fn site_and_elevations_come_from_the_station_file() {
     // The command line takes precedence over the file.
     let own = of_station(&["--format", "csv", "--aos", "0", "--floor", "0", "--lat", "41.02"]);
     assert_eq!(text(&own.stdout), text(&files.passes(&["a.json"], &[]).stdout));
-    // The option may precede the command too.
+    // The option may also precede the command.
     let before = azel(&["--station", &path, "passes", "--elements", &a, "--format", "csv"]);
     assert_eq!(before.status.code(), Some(0), "{}", text(&before.stderr));
     let ics = text(&of_station(&["--format", "ics"]).stdout);

@@ -14,7 +14,7 @@ fn short_passes_are_left_out_and_the_first_are_kept() {
     assert_eq!(list(&["--min-duration", "600"]), long);
     assert_eq!(list(&["--max-passes", "5"]), all[..5]);
     assert_eq!(list(&["--max-passes", "1000000"]), all);
-    // The largest number counts what is left.
+    // `--max-passes` counts only passes that pass `--min-duration`.
     assert_eq!(list(&["--min-duration", "600", "--max-passes", "4"]), long[..4]);
 }
 
@@ -29,7 +29,7 @@ fn an_event_has_the_alarm_that_was_asked_for() {
     for line in ["BEGIN:VALARM", "ACTION:DISPLAY", "TRIGGER;RELATED=START:-PT750S"] {
         assert_eq!(with_alarm.matches(&format!("\r\n{line}\r\n")).count(), 3, "{with_alarm}");
     }
-    // An alarm keeps its identity as its event does.
+    // An alarm keeps its identity, as its event does.
     let ids = |text: &str| -> Vec<String> {
         text.lines().filter_map(|line| line.strip_prefix("UID:")).map(str::to_owned).collect()
     };

@@ -1,10 +1,10 @@
-//! The fields of CSV and JSON are those that the operator's handbook and `--help` name.
+//! Fields of CSV and JSON, which the operator's handbook and `--help` must name.
 
 use std::collections::BTreeSet;
 
 use super::*;
 
-/// Fields by the table in the handbook.
+/// Returns the fields in the table of the handbook.
 fn documented() -> BTreeSet<String> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/operator/command-line.md");
     let handbook = std::fs::read_to_string(path).unwrap();
@@ -14,7 +14,7 @@ fn documented() -> BTreeSet<String> {
     cells.flat_map(|cell| cell.split('`').skip(1).step_by(2)).map(str::to_owned).collect()
 }
 
-/// Fields of CSV and of JSON.
+/// Returns the fields of CSV and of JSON.
 fn written() -> [BTreeSet<String>; 2] {
     let of = |format| passes(&reference_elements(), &["--doppler", "145.8", "--format", format]);
     let csv = text(&of("csv").stdout);

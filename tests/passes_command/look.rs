@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Runs `azel look` on one object.
+/// Runs `azel look` on a file of two objects.
 fn look(arguments: &[&str]) -> Output {
     let list = Value::from(vec![object(&[]), object(&[("NORAD_CAT_ID", 6.into())])]).to_string();
     let files = Files::new(&[("a.json", list)]);
@@ -31,7 +31,7 @@ fn a_satellite_is_looked_at_in_steps() {
     assert_eq!(list[120]["time"], "2026-08-12T06:01:00.000Z");
     let csv = text(&run(&["--minutes", "1", "--format", "csv"]).stdout);
     assert_eq!(csv.lines().count(), 8);
-    // The direction equals that of a pass at its maximum.
+    // These arguments do not choose one of the two satellites.
     let both = look(&["--from", "2026-08-12"]);
     assert_eq!(both.status.code(), Some(1));
     let said = text(&both.stderr);
@@ -70,7 +70,7 @@ fn a_look_is_lifted_by_refraction_and_an_apparent_pass_is_longer() {
         let elevation = |row: &Value| row["aos_elevation_deg"].as_f64().unwrap();
         assert!((elevation(plain) - elevation(lifted)).abs() < 1e-3, "{plain} {lifted}");
     }
-    // At AOS of geometry, the antenna has to point above the horizon.
+    // At geometric AOS, refraction makes the antenna point above the horizon.
     let at = plain[0]["aos_time"].as_str().unwrap();
     let arguments = ["--catalog-number", "5", "--from", at, "--minutes", "0.01"];
     let elevation = |kind: &[&str]| {

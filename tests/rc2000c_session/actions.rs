@@ -24,7 +24,7 @@ async fn not_sent(rig: &mut Rig) -> Refusal {
     refusal
 }
 
-/// A mast in front of azimuths 140 to 150 degrees, up to 60 degrees.
+/// Returns bounds with a mast in front of azimuths 140 to 150 degrees, up to 60 degrees.
 fn mast() -> Bounds {
     let corners_deg = [(140.0, -5.0), (150.0, -5.0), (150.0, 60.0), (140.0, 60.0)];
     let mast = crate::common::mast(&corners_deg);
@@ -37,7 +37,7 @@ async fn counts_are_judged_by_the_way_of_the_angles_that_they_mean() {
     let mut rig = Rig::in_manual().await;
     rig.handle().keep_within(mast());
     let counts = |az, el| [("az_counts", Value::Integer(az)), ("el_counts", Value::Integer(el))];
-    // From 164.75 degrees to 110, with the mast between.
+    // The mast stands between 164.75 degrees and the target at 110 degrees.
     rig.act("to_counts", counts(430, 750));
     let told = not_sent(&mut rig).await;
     assert!(matches!(told, Refusal::Forbidden { .. }), "{told:?}");
@@ -110,7 +110,7 @@ async fn what_cannot_be_watched_is_not_started_unseen() {
     rig.act_unseen("to_satellite", to("GALAXY 5", 0));
     assert_eq!(not_sent(&mut rig).await, Refusal::AngleUnknown { axis: "Az" });
     assert!(rig.orders().is_empty());
-    // Without barriers the operator's eyes must do.
+    // Without barriers, Azel relies on the eyes of the operator.
     rig.handle().keep_within(Bounds::of_antenna(&uncalibrated()));
     rig.act("to_satellite", to("GALAXY 5", 0));
     let told = not_sent(&mut rig).await;
@@ -196,7 +196,7 @@ async fn counts_are_gone_to_within_the_travel_of_the_mount() {
     rig.act("to_counts", counts(4000, 700));
     let told = not_sent(&mut rig).await;
     assert!(matches!(told, Refusal::Travel { axis: "Az", to_deg: 270.0, .. }), "{told:?}");
-    // Within the travel and below the minimum elevation.
+    // The target is within the travel but below the minimum elevation.
     rig.act_unseen("to_counts", counts(1600, 70));
     let told = not_sent(&mut rig).await;
     assert!(matches!(told, Refusal::Elevation { lowest_deg: 5.0, .. }), "{told:?}");

@@ -1,4 +1,5 @@
-//! Alarms: shown by name, forbidding what they must, and cleared on request.
+//! Alarms: Azel shows their names, refuses the motions that they forbid, and clears them on
+//! request.
 
 use azel::{
     contract::driver::{Command, Event, Intent, Refusal},

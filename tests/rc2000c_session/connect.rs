@@ -1,4 +1,4 @@
-//! Connection: nothing before the operator's order, then a probe, then questions.
+//! Connection: Azel sends nothing before the operator's order, then a probe, then questions.
 
 use std::time::Duration;
 

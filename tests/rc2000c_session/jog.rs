@@ -1,4 +1,4 @@
-//! Jogs: timed by the unit, renewed while the key is held, and never longer.
+//! Jogs, which the unit times and Azel renews only while the operator holds the key.
 
 use std::time::Duration;
 
@@ -98,10 +98,10 @@ async fn a_lease_that_is_not_renewed_ends_the_jog() {
     assert!(!rig.control.state().is_turning);
 }
 
-/// As after a computer that slept: the renewal and the end are due at once.
+/// After a computer has slept, the renewal and the end of a jog are due at once.
 #[tokio::test(start_paused = true)]
 async fn a_session_that_was_held_up_ends_the_jog_and_does_not_renew_it() {
-    // At any point in the round of the jog.
+    // Delay the session at any point in the cycle of the jog.
     for place in 0..16 {
         let mut rig = Rig::in_manual().await;
         rig.hold([FAST, 0.0], 0.6).await;
@@ -173,7 +173,7 @@ async fn a_link_lost_in_a_jog_leaves_it_to_the_timer_and_comes_back_with_a_stop(
     rig.hold([FAST, 0.0], 1.0).await;
     let (before, dials) = (rig.received().len(), rig.dials().len());
     rig.set_off(true);
-    // The time of the last renewal, and the run-out of the axis.
+    // Wait until the last renewal is over and the axis has coasted.
     rig.seconds(1.5).await;
     assert!(matches!(rig.shown().link, LinkState::Lost { .. }));
     assert!(!rig.control.state().is_turning, "nobody had to say stop");
@@ -207,7 +207,7 @@ async fn a_limit_blocks_its_own_direction_only() {
     let quirks = [Quirk::RefuseAtLimit].into_iter().collect();
     let mut rig = Rig::connected(&Options { quirks, ..Options::default() }, &antenna()).await;
     rig.send(Command::Manual);
-    // With a calibration the minimum elevation ends it before the limit does.
+    // With a calibration, the minimum elevation ends the jog before the limit does.
     rig.hold([0.0, -FAST], 30.0).await;
     let events = rig.events();
     let barrier = Barrier::MinimumElevation;
@@ -245,8 +245,8 @@ async fn an_alarm_during_a_held_jog_ends_it() {
     assert!(rig.events().contains(&Event::NotSent(Refusal::Fault)));
 }
 
-/// An antenna with a minimum elevation of 30 degrees, 36 degrees up, whose azimuth stands at its
-/// limit and reports no angle.
+/// Starts an antenna with a minimum elevation of 30 degrees, 36 degrees up. Its azimuth stands at
+/// its limit and reports no angle.
 async fn at_the_limit_of_its_azimuth() -> Rig {
     let azimuth = AxisOptions { travel: 1524..=3630, ..AxisOptions::AZIMUTH };
     let mut antenna = antenna();
@@ -274,7 +274,7 @@ async fn an_azimuth_at_its_limit_does_not_lift_the_minimum_elevation() {
             if *barrier == Barrier::MinimumElevation)
     };
     assert!(rig.events().iter().any(refused));
-    // Nothing else is in the way.
+    // Nothing blocks the elevation on its way up.
     rig.send(Command::EndJog);
     rig.hold([0.0, FAST], 2.0).await;
     assert!(f64::from(rig.counts()[1] - 30) / 20.0 > elevation_deg + 2.0);

@@ -50,7 +50,7 @@ async fn an_axis_that_stays_is_told_its_present_counts() {
     assert_eq!(rig.orders(), ["2 0152500830"]);
 }
 
-/// Takes the azimuth to an end of its travel, where the unit tells no counts of it.
+/// Moves the azimuth to an end of its travel, where the unit reports no counts for it.
 async fn go_to_the_limit(rig: &mut Rig) {
     rig.send(to(90.0, 40.0));
     rig.until("the limit", 60, |shown| {
@@ -176,7 +176,7 @@ async fn a_new_direction_stops_the_way_to_the_old_one() {
     assert!(orders.len() > 2);
 }
 
-/// Looks at a direction and returns what was found about the way to it.
+/// Previews a direction and returns the way to it, or the refusal.
 async fn looked_at(rig: &mut Rig, az_deg: f64, el_deg: f64) -> Result<Way, Refusal> {
     let to = AzEl::from_degrees(az_deg, el_deg).into();
     rig.send(Command::Preview(Some(to)));
@@ -189,7 +189,7 @@ async fn looked_at(rig: &mut Rig, az_deg: f64, el_deg: f64) -> Result<Way, Refus
 #[tokio::test(start_paused = true)]
 async fn a_direction_that_is_only_looked_at_is_judged_like_a_motion_and_moves_nothing() {
     let mut rig = in_position().await;
-    // In Standby a direction is judged too.
+    // Azel judges a direction in Standby too.
     rig.send(Command::Standby);
     let from = rig.shown().state.measured.unwrap().direction().unwrap();
     let way = looked_at(&mut rig, 180.0, 40.0).await.unwrap();
@@ -203,7 +203,7 @@ async fn a_direction_that_is_only_looked_at_is_judged_like_a_motion_and_moves_no
     let beyond = looked_at(&mut rig, 20.0, 40.0).await;
     assert!(matches!(beyond, Err(Refusal::Travel { .. })), "{beyond:?}");
 
-    // A mast between: over it, or not at all where its top is in the way.
+    // Azel refuses a direction inside the mast; the way to one beyond leads over the mast.
     let corners_deg = [(140.0, -5.0), (150.0, -5.0), (150.0, 60.0), (140.0, 60.0)];
     let mast = crate::common::mast(&corners_deg);
     let station = Station { keep_outs: vec![mast], ..Station::default() };
@@ -251,7 +251,7 @@ async fn after_a_lost_link_a_way_ends_at_its_corner() {
     assert!(rig.shown().state.measured.is_some_and(|it| it.moving()), "nothing has been read");
     rig.events();
     rig.set_off(false);
-    // It stands where it was sent.
+    // The antenna stands where Azel sent it.
     rig.until_event(30, |event| matches!(event, Event::Back { is_explained: true, .. })).await;
     let is_short = |event: &Event| matches!(event, Event::EndedShort { .. });
     let short = rig.until_event(60, is_short).await;

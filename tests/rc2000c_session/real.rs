@@ -18,7 +18,7 @@ use crate::common::{clock::TestClock, rig::session};
 
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// A fast line, because these tests run in real time.
+/// Returns options of a fast line, because these tests run in real time.
 fn options() -> Options {
     Options { latency: Duration::ZERO, baud: 1_000_000, ..Options::default() }
 }
@@ -102,7 +102,7 @@ impl Fixture {
     }
 }
 
-/// Both at once, because they wait for the line most of the time.
+/// Both tests run at once, because they wait for the line most of the time.
 #[tokio::test]
 async fn over_a_serial_server_with_and_without_parity_of_its_own() {
     tokio::join!(with_parity(), with_eight_bits_it_is_understood_at_the_second_try());
@@ -144,7 +144,7 @@ async fn over_a_serial_port() {
     let server = tokio::spawn(simulator.run());
     let mut fixture = Fixture::at(&path);
     fixture.tour(&control).await;
-    // Connect again, and then the cable is pulled.
+    // Connect again, and then pull the cable.
     fixture.send(Command::Connect);
     fixture.until_event(Event::Connected(Found::Still)).await;
     server.abort();

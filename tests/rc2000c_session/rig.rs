@@ -19,8 +19,8 @@ use crate::common::rig;
 
 pub(super) type Rig = rig::Rig<Control>;
 
-/// An antenna of twenty counts a degree, like the simulated one: azimuth 90 to 270
-/// degrees, elevation 0 to 90.
+/// Returns an antenna of twenty counts a degree, like the simulated one: azimuth 90 to 270 degrees,
+/// elevation 0 to 90.
 pub(crate) fn antenna() -> Antenna {
     let point = |counts, degrees| CountPoint { counts, degrees };
     let calibration = Calibration {
@@ -38,7 +38,6 @@ pub(crate) fn antenna() -> Antenna {
     }
 }
 
-/// An antenna without calibration.
 pub(super) fn uncalibrated() -> Antenna {
     with_calibration(Calibration::default())
 }
@@ -50,14 +49,14 @@ fn with_calibration(calibration: Calibration) -> Antenna {
 }
 
 impl Rig {
-    /// A running session without an order to connect.
+    /// Starts a session without an order to connect.
     pub(super) fn start(options: &Options, antenna: &Antenna) -> Self {
         Self::new(Control::new(options), Timestamp::UNIX_EPOCH, |dial, clock| {
             rig::session(antenna, dial, clock)
         })
     }
 
-    /// A running session with a unit that is locked out.
+    /// Starts a session with a unit that is locked out.
     pub(super) fn start_locked_out(antenna: &Antenna, lock_out: LockOut) -> Self {
         Self::new(Control::new(&Options::default()), Timestamp::UNIX_EPOCH, |dial, clock| {
             let (session, handle) = rig::session(antenna, dial, clock);
@@ -65,7 +64,8 @@ impl Rig {
         })
     }
 
-    /// A session that has read its unit and the list of satellites, at standstill.
+    /// Starts a session and waits until it has read its unit and the list of satellites, at
+    /// standstill.
     pub(crate) async fn connected(options: &Options, antenna: &Antenna) -> Self {
         let mut rig = Self::start(options, antenna);
         rig.send(Command::Connect);
@@ -78,7 +78,7 @@ impl Rig {
         rig
     }
 
-    /// The usual unit and antenna, in Manual.
+    /// Starts the default unit and antenna, in Manual.
     pub(super) async fn in_manual() -> Self {
         let mut rig = Self::connected(&Options::default(), &antenna()).await;
         rig.send(Command::Manual);
@@ -109,18 +109,18 @@ impl Rig {
         self.until_event(12, is_found).await;
     }
 
-    /// All commands that the unit received, as code and data: `1` asks for the status.
+    /// Returns all commands that the unit received, as code and data: `1` asks for the status.
     pub(super) fn received(&self) -> Vec<String> {
         self.timed().into_iter().map(|(_, text)| text).collect()
     }
 
-    /// Commands that the unit received, without questions.
+    /// Returns the commands that the unit received, without questions.
     pub(super) fn orders(&self) -> Vec<String> {
         let is_order = |text: &String| !text.starts_with(['0', '1', '5']);
         self.received().into_iter().filter(is_order).collect()
     }
 
-    /// Times of commands that begin with `start`.
+    /// Returns the times of commands that begin with `start`.
     pub(super) fn times(&self, start: &str) -> Vec<Instant> {
         let timed = self.timed().into_iter();
         timed.filter(|(_, text)| text.starts_with(start)).map(|(at, _)| at).collect()
@@ -134,20 +134,20 @@ impl Rig {
         self.control.received().iter().map(|(at, frame)| (*at, text(frame))).collect()
     }
 
-    /// Shown positions of the axes, counts.
+    /// Returns the true positions of the simulated axes, counts.
     pub(super) fn counts(&self) -> [u16; 2] {
         let state = self.control.state();
         [state.az_counts, state.el_counts]
     }
 }
 
-/// Text of a line of the panel.
+/// Returns the text of a line of the panel.
 pub(super) fn reading(shown: &Snapshot, label: &str) -> Option<String> {
     let lines = shown.state.readings.iter();
     lines.filter(|line| line.label == label).map(|line| line.text.clone()).next()
 }
 
-/// State of a check.
+/// Returns the state of a check.
 pub(super) fn check(shown: &Snapshot, name: &str) -> Option<CheckState> {
     shown.state.checks.iter().find(|check| check.name == name).map(|check| check.state)
 }

@@ -1,4 +1,5 @@
-//! STOP: past everything, also from off, and proved only when all axes stand.
+//! STOP: Azel sends it before everything else, even with the link off, and proves it only when all
+//! axes stand.
 
 use std::time::Duration;
 
@@ -36,7 +37,7 @@ async fn stop_while_off_dials_and_says_stop_first() {
     let frames = rig.control.received();
     assert_eq!(frames[0].1.to_bytes(), b"\x02\x32\x33XS0000\x03\x0b");
     assert_eq!(rig.received()[1], "0");
-    // The panel is left to a local operator.
+    // Azel leaves the panel to a local operator.
     rig.until("let go", 3, |shown| shown.link == LinkState::Off).await;
 }
 
@@ -68,7 +69,7 @@ async fn a_stop_is_believed_only_when_the_numbers_stand() {
     rig.seconds(0.02).await;
     let mut acknowledged = 0;
     while rig.control.state().is_turning {
-        // The drive has no power any more, but the axis still coasts.
+        // The drive has lost its power, but the axis still coasts.
         assert!(matches!(rig.shown().stop, StopState::Stopping { .. }), "{:?}", rig.shown().stop);
         acknowledged += 1;
         rig.seconds(0.01).await;

@@ -1,4 +1,4 @@
-//! Track mode of the unit: shown, left alone, and ended only on request.
+//! Track mode of the unit, which Azel shows, leaves alone and ends only on request.
 
 use azel::{
     contract::{
@@ -16,7 +16,7 @@ fn named(name: &str) -> [(&'static str, Value); 1] {
     [("satellite", Value::Text(name.to_owned()))]
 }
 
-/// A unit that tracks an inclined satellite, searching or peaking.
+/// Starts a unit that tracks an inclined satellite, searching or peaking.
 pub(super) async fn tracking() -> Rig {
     let mut rig = Rig::in_manual().await;
     rig.act_unseen("to_satellite", named("GSTAR 3"));

@@ -1,5 +1,5 @@
-//! Listener on loopback that hands each connection to a server process of its own, so that
-//! no test has to wait for a server.
+//! Listener on loopback that starts a server process for each connection, so that no test has to
+//! wait for a server.
 
 use std::{
     net::{SocketAddr, TcpListener, TcpStream},
@@ -12,7 +12,7 @@ use std::{
     thread::{self, JoinHandle},
 };
 
-/// Serves until it is dropped.
+/// Listener that serves until it is dropped.
 pub(crate) struct Doorman {
     address: SocketAddr,
     ends: Arc<AtomicBool>,
@@ -21,7 +21,8 @@ pub(crate) struct Doorman {
 }
 
 impl Doorman {
-    /// `server` makes the process of one connection, which is its input and output.
+    /// Starts a listener. `server` makes the process of one connection, with the connection as its
+    /// input and output.
     pub(crate) fn new(server: impl Fn() -> Command + Send + 'static) -> Self {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let address = listener.local_addr().unwrap();
@@ -52,13 +53,13 @@ impl Doorman {
 impl Drop for Doorman {
     fn drop(&mut self) {
         self.ends.store(true, Ordering::SeqCst);
-        // Wakes the thread; on failure it has ended already.
+        // Wake the thread; if this fails, the thread has already ended.
         let _ = TcpStream::connect(self.address);
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
         }
         for server in self.servers.lock().unwrap().iter_mut() {
-            // Most have ended with their connection.
+            // Most servers have ended with their connection.
             let _ = server.kill();
             let _ = server.wait();
         }

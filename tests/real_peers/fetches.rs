@@ -32,7 +32,7 @@ fn source(protocol: FileProtocol, user: &str, address: SocketAddr) -> ElementSou
     }
 }
 
-/// Trust in `own` authorities and in no SSH host.
+/// Returns trust in the authorities `own` and in no SSH host.
 fn trust(own: &[CertificateDer<'static>]) -> Trust {
     Trust { known_hosts: KnownHosts::new("/nowhere/known_hosts"), own_authorities: own.to_vec() }
 }
@@ -109,7 +109,7 @@ fn an_ftp_server_that_stalls_or_hangs_up_is_left() {
     let limits =
         Limits { log_in: Duration::from_millis(800), file: Duration::from_millis(800), ..LIMITS };
     let late = Interruption::TimedOut(Duration::from_millis(800));
-    // Silent from the first moment on.
+    // This server is silent from the start.
     let silent = TcpListener::bind("127.0.0.1:0").unwrap();
     let asked = source(FileProtocol::Ftp, "op", silent.local_addr().unwrap());
     let error = get(&asked, &trust(&[]), limits).unwrap_err();
@@ -119,7 +119,7 @@ fn an_ftp_server_that_stalls_or_hangs_up_is_left() {
         panic!("{error}")
     };
     assert_eq!(*by, late);
-    // During the log-in.
+    // These links stall or break during the log-in.
     for then in [Then::Stall, Then::Cut] {
         let link = Narrow::new(server.address(), 10, then);
         let asked = source(FileProtocol::Ftp, &server.user.name, link.address());
@@ -178,7 +178,7 @@ fn connect_error(error: &FetchError) -> &ConnectError {
     error
 }
 
-/// Log of the libraries.
+/// Lines that the libraries log.
 static LOGGED: Mutex<Vec<String>> = Mutex::new(Vec::new());
 
 struct Logger;

@@ -9,23 +9,24 @@ use super::{
     user::{User, open_folder, run},
 };
 
-/// The file in the user's home.
+/// Name of the file in the user's home.
 pub(crate) const FILE: &str = "weather.txt";
 
 pub(crate) struct FtpServer {
-    // First, because fields are dropped in order: its servers run as the user.
+    // The first field, because fields drop in order and its servers run as the user.
     doorman: Doorman,
     pub(crate) user: User,
     home: tempfile::TempDir,
 }
 
 impl FtpServer {
-    /// A server with `content` in [`FILE`]; it accepts log-ins with TLS only if `tls` is set.
+    /// Starts a server with `content` in [`FILE`]; it accepts log-ins with TLS only if `tls` is
+    /// set.
     pub(crate) fn new(content: &[u8], tls: bool) -> Self {
         Self::with_options(content, tls, "")
     }
 
-    /// A server with `options` in the words of its configuration.
+    /// Starts a server with `options` as further lines of its configuration.
     pub(crate) fn with_options(content: &[u8], tls: bool, options: &str) -> Self {
         let home = open_folder();
         let user = User::new(home.path());

@@ -21,7 +21,7 @@ const CONFIG: &str = "[ca]\ndefault_ca = own\n[own]\ndatabase = index.txt\nseria
                       [names]\ncommonName = supplied\n";
 const NEW_KEY: [&str; 5] = ["-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes"];
 
-/// A certificate authority.
+/// Certificate authority with a folder for its files.
 pub(crate) struct Authority {
     folder: tempfile::TempDir,
 }
@@ -66,17 +66,17 @@ impl Authority {
     }
 }
 
-/// Serves until it is dropped.
+/// HTTPS server that runs until it is dropped.
 pub(crate) struct HttpsServer {
     process: Child,
     pub(crate) port: u16,
-    /// Kept open: the server ends when nobody can read its output.
+    /// Output of the server, kept open because the server ends without a reader.
     _said: BufReader<ChildStdout>,
 }
 
 impl HttpsServer {
-    /// A server with `content` in [`FILE`] and a certificate of `authority` for `name`, valid
-    /// until the year `end`.
+    /// Starts a server with `content` in [`FILE`] and a certificate of `authority` for `name`,
+    /// valid until the year `end`.
     pub(crate) fn new(authority: &Authority, name: &str, end: u16, content: &[u8]) -> Self {
         authority.certify(name, end);
         let folder: &Path = authority.folder.path();
@@ -85,7 +85,7 @@ impl HttpsServer {
         openssl.args(["s_server", "-WWW", "-accept", "127.0.0.1:0", "-cert", "server.pem"]);
         openssl.args(["-key", "server.key"]).stdout(Stdio::piped()).stderr(Stdio::null());
         let mut process = openssl.stdin(Stdio::null()).spawn().unwrap();
-        // The output tells where it listens.
+        // The output contains the port of the server.
         let mut said = BufReader::new(process.stdout.take().unwrap());
         let port = said
             .by_ref()
@@ -99,7 +99,7 @@ impl HttpsServer {
 
 impl Drop for HttpsServer {
     fn drop(&mut self) {
-        // It may have ended by itself.
+        // The server may have ended already.
         let _ = self.process.kill();
         let _ = self.process.wait();
     }

@@ -16,7 +16,7 @@ use super::{
 
 const LIMITS: Limits = Limits { timeout: Duration::from_secs(20), bytes: 1 << 20 };
 
-/// Number of objects from `server`, or the reason why there are none.
+/// Returns the number of objects from `server`, or the reason why there are none.
 fn objects(
     server: &HttpsServer,
     trusted: Option<CertificateDer<'static>>,
@@ -31,7 +31,7 @@ fn objects(
     }
     let now: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
     library.refresh(&sources, now, false, &|| false).unwrap();
-    // The reason is on disk as well.
+    // The library saves the reason on disk as well.
     let (catalog, reports) = Library::open(folder.path(), LIMITS).unwrap().load(&sources);
     reports[0].fetch_problem.clone().map_or(Ok(catalog.len()), Err)
 }

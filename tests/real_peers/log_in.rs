@@ -154,7 +154,7 @@ impl io::Write for Log {
     }
 }
 
-/// Contents of every file below `folder`, one after the other.
+/// Returns the contents of every file below `folder`, one after the other.
 fn all_bytes(folder: &Path) -> Vec<u8> {
     let paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let read = |path: std::path::PathBuf| {

@@ -1,4 +1,4 @@
-//! A link that breaks or stalls after a number of bytes from the client.
+//! Link that breaks or stalls after a number of bytes from the client.
 
 use std::{
     io::{Read as _, Write as _},
@@ -10,21 +10,21 @@ use std::{
 /// Behaviour after the last byte that goes through.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Then {
-    /// Both ends are closed.
+    /// Close of both ends.
     Cut,
-    /// Nothing moves any more, and nothing is closed.
+    /// Silence on a link that stays open.
     Stall,
 }
 
-/// A connection to another address.
+/// Relay to another address.
 pub(crate) struct Narrow {
     address: SocketAddr,
-    /// Dropped at the end of the test, which ends a stalled link too.
+    /// Sender that drops at the end of the test, which also ends a stalled link.
     _ends: mpsc::SyncSender<()>,
 }
 
 impl Narrow {
-    /// Lets `bytes` from the client through to `peer`.
+    /// Starts a relay that lets `bytes` from the client through to `peer`.
     pub(crate) fn new(peer: SocketAddr, bytes: usize, then: Then) -> Self {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let address = listener.local_addr().unwrap();
@@ -35,17 +35,17 @@ impl Narrow {
             let (mut answers, mut back) =
                 (server.try_clone().unwrap(), client.try_clone().unwrap());
             let answer = move || {
-                // Ends with either side.
+                // The copy ends with either side.
                 let _ = std::io::copy(&mut answers, &mut back);
             };
             thread::Builder::new().name("answers".to_owned()).spawn(answer).unwrap();
             pass(&client, &server, bytes);
             if then == Then::Stall {
-                // Never sent: ends with the test.
+                // The channel never carries a message; it closes with the test.
                 let _ = ended.recv();
             }
             for end in [client, server] {
-                // It may be closed already.
+                // The connection may be closed already.
                 let _ = end.shutdown(Shutdown::Both);
             }
         };

@@ -1,4 +1,4 @@
-//! A unit: an `sshd` with a folder of elements, and a console beside it.
+//! Unit of `sshd` with a folder of elements, and a console beside it.
 
 use std::{
     fs,
@@ -28,7 +28,7 @@ use super::{
 pub(crate) const FILE: &str = "weather.txt";
 pub(crate) const OLD: &[u8] = b"the elements of last week\n";
 
-/// Short where nothing is slow, so that a stall ends a test soon.
+/// Upload limits, short where nothing is slow, so that a stall ends a test soon.
 pub(crate) const LIMITS: Limits = Limits {
     connect: Duration::from_secs(5),
     log_in: Duration::from_secs(30),
@@ -38,7 +38,7 @@ pub(crate) const LIMITS: Limits = Limits {
 };
 
 pub(crate) struct Unit {
-    // First, because fields are dropped in order: its servers run as the user.
+    // The first field, because fields drop in order and its servers run as the user.
     doorman: Doorman,
     pub(crate) user: User,
     pub(crate) known: KnownHosts,
@@ -47,14 +47,14 @@ pub(crate) struct Unit {
 }
 
 impl Unit {
-    /// A unit with [`OLD`] in [`FILE`] and its host key pinned.
+    /// Starts a unit with [`OLD`] in [`FILE`] and its host key pinned.
     pub(crate) fn new() -> Self {
         let unit = Self::unpinned("ed25519", "internal-sftp");
         unit.pin();
         unit
     }
 
-    /// A unit with an unknown host key of `kind`, and files served by `sftp`.
+    /// Starts a unit with an unknown host key of `kind`, and files served by `sftp`.
     pub(crate) fn unpinned(kind: &str, sftp: &str) -> Self {
         let home = open_folder();
         let path = home.path().to_owned();
@@ -98,7 +98,7 @@ impl Unit {
         self.home.path().join("host_key")
     }
 
-    /// Fingerprint as `ssh-keygen` on the unit shows it.
+    /// Returns the fingerprint as `ssh-keygen` on the unit shows it.
     pub(crate) fn fingerprint(&self) -> String {
         let shown = run(Command::new("ssh-keygen").arg("-lf").arg(self.host_key()));
         shown.split(' ').nth(1).unwrap().to_owned()
@@ -128,7 +128,7 @@ impl Unit {
         self.home.path().join("tle")
     }
 
-    /// Contents of the folder, sorted by name.
+    /// Returns the contents of the folder, sorted by name.
     pub(crate) fn files(&self) -> Vec<(String, Vec<u8>)> {
         let entries = fs::read_dir(self.folder()).unwrap().map(|entry| entry.unwrap().path());
         let name = |path: &Path| path.file_name().unwrap().to_str().unwrap().to_owned();
@@ -205,7 +205,7 @@ pub(crate) fn block_on<T>(work: impl Future<Output = T>) -> T {
         .expect("this has to end within its own limits")
 }
 
-/// A file of the first `count` bundled objects with names of their own.
+/// Returns a file of the first `count` bundled objects with distinct names.
 pub(crate) fn elements(count: usize) -> TleFile {
     static CATALOG: LazyLock<Catalog> = LazyLock::new(|| bundled().unwrap());
     let mut names = std::collections::BTreeSet::new();

@@ -70,7 +70,8 @@ fn a_server_that_cannot_replace_in_one_step_gets_two() {
     let new = elements(3);
     unit.upload(&new).unwrap();
     assert_eq!(unit.files(), [(FILE.to_owned(), new.bytes().to_vec())]);
-    // An upload broke off between the two steps: the next one finds the old elements.
+    // Simulate an upload that broke off between its two steps. The next upload finds the old
+    // elements.
     let path = unit.folder().join(FILE);
     fs::rename(&path, path.with_file_name(format!("{FILE}.azel-old"))).unwrap();
     unit.upload(&elements(4)).unwrap();
@@ -132,7 +133,7 @@ impl<'a> Disk<'a> {
 
 impl Drop for Disk<'_> {
     fn drop(&mut self) {
-        // A server of the test may still use it.
+        // A server of the test may still use the disk.
         let _ = Command::new("umount").arg("-l").arg(self.0).status();
     }
 }

@@ -17,7 +17,7 @@ pub(crate) struct User {
 }
 
 impl User {
-    /// A user with [`PASSWORD`] whose home is `home`.
+    /// Creates a user with [`PASSWORD`] whose home is `home`.
     pub(crate) fn new(home: &Path) -> Self {
         let name = format!("azel{}x{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
         run(Command::new("useradd").args(["-M", "-s", "/bin/sh", "-d"]).arg(home).arg(&name));
@@ -36,7 +36,7 @@ impl User {
 
 impl Drop for User {
     fn drop(&mut self) {
-        // Some servers outlive their connection; the user is removed all the same.
+        // Some servers outlive their connection, so force the removal of the user.
         let _ = Command::new("userdel").args(["-f", &self.name]).output();
     }
 }
@@ -49,7 +49,7 @@ pub(crate) fn run(command: &mut Command) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// A new folder that every user may read.
+/// Creates a folder that every user may read.
 pub(crate) fn open_folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::set_permissions(folder.path(), std::fs::Permissions::from_mode(0o755)).unwrap();

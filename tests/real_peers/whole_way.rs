@@ -61,7 +61,7 @@ impl Fixture {
         antenna.upkeep.uploads_elements = true;
         let favourites = favourites.into_iter().collect();
         let mut station = Station { antennas: vec![antenna], favourites, ..Station::default() };
-        // Whatever the time of day, no pass is near.
+        // With this max age of elements, no pass is near at any time of day.
         station.scheduling.max_element_age_d = Some(0.1);
         let path = folder.path().join("station.toml");
         station::save(&station, &path, SPECS).unwrap();
@@ -85,8 +85,8 @@ impl Fixture {
         fixture
     }
 
-    /// Ends the program and starts it again. It has forgotten typed passwords. `between`: with the
-    /// folder of the station.
+    /// Ends the program and starts it again without its typed passwords. `between` may change the
+    /// folder of the station in between.
     fn start_again(&mut self, between: impl FnOnce(&Path)) {
         let places = self.settings.upload_places.as_mut().unwrap();
         places.session = Arc::default();
@@ -106,7 +106,7 @@ impl Fixture {
         });
     }
 
-    /// A fixture with the upload part open, and everything typed but the password.
+    /// Creates a fixture with the upload part open, and everything typed but the password.
     fn typed(files: Unit) -> Self {
         Self::with(files, vec![ISS, NOAA_20])
     }
@@ -155,7 +155,7 @@ impl Fixture {
         self.window.run_steps(3);
     }
 
-    /// Waits for the end and returns the shown stage.
+    /// Waits for the end of the upload and returns the shown stage.
     fn end(&mut self) -> Stage {
         self.until("the end", |model| {
             matches!(model.uploads.stage, Stage::Proved(_) | Stage::Failed(_))
@@ -180,7 +180,7 @@ impl Fixture {
         self.window.query_all_by_label_contains(words).next().is_some()
     }
 
-    /// Types a password where it is asked for.
+    /// Waits until Azel asks for the password, types `password` and presses Enter.
     fn log_in(&mut self, password: &str) {
         self.until("the password is asked for", |model| {
             matches!(model.uploads.stage, Stage::AsksForSecret(_))
@@ -213,7 +213,7 @@ fn window(settings: Settings) -> Harness<'static, App> {
         .build_eframe(move |cc| App::new(&cc.egui_ctx, &settings, Clock::system()).unwrap())
 }
 
-/// A simulated unit that reads the folder of `files`.
+/// Starts a simulated unit that reads the folder of `files`.
 fn simulate(files: &Unit) -> (String, Control, oneshot::Sender<()>) {
     let options = Options {
         element_folder: Some(files.folder()),
@@ -258,7 +258,7 @@ fn from_the_first_click_to_the_unit_s_own_word_and_back() {
     fixture.assert_proved();
     let first = fixture.files.files();
     assert!(first.len() == 1 && first[0].1 != OLD);
-    // The unit is asked for the one that is selected, or for the first of the file until passes are
+    // Azel asks the unit for the selected satellite, or for the first of the file until passes are
     // there.
     let sent = fixture.sent();
     let asked =
@@ -271,7 +271,7 @@ fn from_the_first_click_to_the_unit_s_own_word_and_back() {
     fixture.until("the password is kept", |_| true);
     assert!(fixture.keyring.get(&account).unwrap().is_some());
 
-    // Another file, without a question, and the first one back.
+    // Azel uploads another file without a question, and then the first file again.
     fixture.click("Leave out ISS (ZARYA)");
     fixture.click("Upload and verify");
     fixture.assert_proved();
@@ -335,7 +335,7 @@ fn the_rule_repeats_the_upload_once_the_elements_are_too_old() {
     fixture.window.get_by_role(Role::PasswordInput).focus();
     fixture.log_in(PASSWORD);
     fixture.assert_proved();
-    // As if that upload was a year ago.
+    // Move the date of that upload a year back.
     fixture.start_again(|folder| {
         let kept = fs::read_to_string(folder.join(STATE)).unwrap();
         assert!(kept.contains("25544") && !kept.contains(PASSWORD), "{kept}");
@@ -389,7 +389,7 @@ fn what_goes_wrong_on_the_way_is_told_and_typing_stays() {
     assert!(fixture.sent().is_empty(), "the unit was told nothing");
     let user = fixture.window.get_by_role_and_label(Role::TextInput, "User").value();
     assert_eq!(user.as_deref(), Some(fixture.files.user.name.as_str()));
-    // The password is asked for once a session: now the upload goes through by itself.
+    // Azel asks for the password once a session, so this upload needs no further input.
     fs::set_permissions(fixture.files.folder(), fs::Permissions::from_mode(0o755)).unwrap();
     fixture.click("Upload and verify");
     fixture.assert_proved();
@@ -419,7 +419,7 @@ fn a_link_that_is_cut_or_stalls_ends_in_an_error_with_the_old_file_there() {
 #[test]
 #[ignore = "needs sshd and root"]
 fn a_unit_that_does_not_see_the_file_is_no_success() {
-    // The unit reads another folder than the one written to.
+    // The unit reads another folder than the upload writes to.
     let mut fixture = Fixture::typed(Unit::new());
     let other = fixture.files.home.path().join("other");
     fs::create_dir(&other).unwrap();
@@ -432,7 +432,7 @@ fn a_unit_that_does_not_see_the_file_is_no_success() {
     assert!(fixture.says("Not in use: The unit"), "{}", failure.text);
 }
 
-/// Log of all threads.
+/// Returns the log of all threads.
 fn log() -> &'static Log {
     static LOG: LazyLock<Log> = LazyLock::new(|| {
         let log = Log::default();
@@ -461,7 +461,7 @@ impl std::io::Write for Log {
     }
 }
 
-/// Contents of every file below `folder`, one after the other.
+/// Returns the contents of every file below `folder`, one after the other.
 fn all_bytes(folder: &std::path::Path) -> Vec<u8> {
     let paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let read = |path: std::path::PathBuf| {

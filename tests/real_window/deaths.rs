@@ -1,5 +1,5 @@
-//! Deaths of the window while a jog key is held: the unit gets STOP, and nothing of the
-//! program is left.
+//! Deaths of the window while a jog key is held: the unit gets STOP, and no process of the program
+//! remains.
 
 use azel::clock::Instant;
 use std::{
@@ -21,18 +21,18 @@ use super::{
 
 /// Time limit for STOP at the unit after a death.
 const STOPS_IN: Duration = Duration::from_secs(2);
-/// Time limit for STOP when the program still ends in order, by way of a frame.
+/// Time limit for STOP if the program ends in order, which takes one frame.
 const ENDS_IN: Duration = Duration::from_secs(5);
-/// Time limit for the end of every process of the program; the dead-man insists for 2 s.
+/// Time limit for the end of every process of the program; the dead-man repeats STOP for 2 s.
 const GONE_IN: Duration = Duration::from_secs(5);
-/// Time limit for STOP by a program that starts again: 5 s on a desk, the rest is for a
+/// Time limit for STOP by a program that starts again. It takes 5 s on a desk; the rest is for a
 /// machine under load.
 const BACK_IN: Duration = Duration::from_secs(10);
-/// Time for which it is watched that nothing happens.
+/// Time for which a test watches that nothing happens.
 const WATCHED: Duration = Duration::from_secs(3);
 /// Time for which a held key must move the antenna without a gap.
 const STEADY: Duration = Duration::from_millis(700);
-/// Filter of the window's log: each event.
+/// Log filter of the window: all events.
 const EVENTS: &str = "azel=info";
 
 /// The window with a held key, and the moving unit.
@@ -44,7 +44,7 @@ struct Scene {
     dead_men: Vec<Process>,
 }
 
-/// A screen that no other test of this process has.
+/// Creates a screen that no other test of this process has.
 fn screen() -> Screen {
     static NEXT: AtomicU32 = AtomicU32::new(131);
     Screen::new(NEXT.fetch_add(1, Ordering::Relaxed), "1440x900")
@@ -60,7 +60,7 @@ fn log_file(screen: &Screen) -> PathBuf {
     screen.folder.path().join("log.txt")
 }
 
-/// Shown by `--nocapture`.
+/// Prints a measured time, which `--nocapture` shows.
 #[allow(clippy::print_stdout)]
 fn report(what: &str, took: Duration) {
     println!("{what}: {} ms", took.as_millis());
@@ -83,9 +83,8 @@ impl Scene {
         scene
     }
 
-    /// Holds the key X+ until the antenna moves without a gap, in several attempts: a press
-    /// before the window shows the key does nothing, and a machine under load may let a hold
-    /// run out.
+    /// Holds the key X+ until the antenna moves without a gap, in several attempts. A press before
+    /// the window shows the key does nothing, and a machine under load may let a hold run out.
     fn hold(&mut self) {
         let mut attempts = 0..;
         self.dead_men = wait_for("a held key", || {
@@ -113,7 +112,7 @@ impl Scene {
         assert_eq!(self.screen.marks(), 1);
     }
 
-    /// Waits until no dead-man runs that watched over any hold.
+    /// Waits until every dead-man of any hold has ended.
     fn wait_until_unwatched(&self) {
         let start = Instant::now();
         wait_for("the dead-men to end", || {
@@ -124,7 +123,7 @@ impl Scene {
         assert!(Instant::now() - start < GONE_IN, "{:?}", Instant::now() - start);
     }
 
-    /// Kills in one way, then checks STOP, standstill and remains.
+    /// Kills the program with `kill`, then checks STOP, standstill and remaining processes.
     fn dies(mut self, what: &str, limit: Duration, kill: impl FnOnce(&mut Self)) {
         let killed = Instant::now();
         kill(&mut self);
@@ -140,8 +139,8 @@ impl Scene {
         assert!(!self.unit.is_moving());
     }
 
-    /// Stops the process, lets it go on with the key still down, and checks that only a new
-    /// press moves the antenna again.
+    /// Suspends the process, continues it with the key still down, and checks that only a new press
+    /// moves the antenna again.
     fn freezes(mut self, what: &str, signal: &str, frozen_for: Duration) {
         let frozen = Instant::now();
         self.azel.signal(signal);
@@ -229,7 +228,7 @@ fn a_program_that_was_killed_in_a_jog_stops_the_unit_when_it_starts_again() {
     let mut command = command(&scene.screen, &scene.unit);
     let (azel, _) = scene.screen.window_of(command.env("AZEL_LOG", EVENTS).stderr(file));
     scene.azel = azel;
-    // The unit has room for it once the dead-man has left the old connection.
+    // The unit has room for the new client once the dead-man has left the old connection.
     let came = wait_for("the new client", || scene.unit.clients().get(before).copied());
     let (at, first) =
         wait_for("its first word", || scene.unit.heard_since(came).into_iter().next());
@@ -253,7 +252,7 @@ fn a_program_that_was_killed_in_a_jog_stops_the_unit_when_it_starts_again() {
 #[ignore = "needs Xvfb, xdotool and OpenGL"]
 fn a_log_that_nobody_reads_holds_up_no_stop() {
     let (unread, mut log) = io::pipe().expect("a pipe");
-    // As much as a pipe takes, so that the first line of the log already waits.
+    // Fill the pipe, so that even the first line of the log has to wait.
     log.write_all(&vec![b'\n'; 65_536]).expect("room in a new pipe");
     let scene = Scene::with_log(screen(), Unit::start(), log.into(), "azel=trace");
     let released = Instant::now();

@@ -5,7 +5,7 @@
 //!
 //! `AZEL_PICTURES=all cargo test --test processes real_window::pictures -- --ignored --nocapture`
 //!
-//! Instead of `all`, sizes such as `1024x640,1440x900` are taken alone.
+//! Sizes such as `1024x640,1440x900` in place of `all` take only these sizes.
 
 use std::{
     collections::HashSet,
@@ -35,25 +35,25 @@ use super::{
 const SIZES: [[u32; 2]; 4] = [[1024, 640], [1440, 900], [1920, 1080], [2560, 1440]];
 const THEMES: [(ThemeName, &str); 3] =
     [(ThemeName::Dark, "dark"), (ThemeName::Light, "light"), (ThemeName::Night, "night")];
-/// Names the sizes of the long form.
+/// Environment variable with the sizes of the long form.
 const LONG_FORM: &str = "AZEL_PICTURES";
-/// Time for the window to finish what a key or a click has begun.
+/// Time in which the window finishes the effects of a key or a click.
 const SETTLES_IN: Duration = Duration::from_millis(800);
-/// Colours of the least colourful view: text has many shades of its own.
+/// Number of colours that every view exceeds; text alone has many shades.
 const LEAST_COLOURS: usize = 60;
 
 /// An act of the operator.
 #[derive(Clone, Copy)]
 enum Act {
-    /// A key, as xdotool and as egui name it.
+    /// A key, with its names in xdotool and in egui.
     Press(&'static str, Modifiers, Key),
     /// A click on the control of this name, else on the first whose name contains it.
     Click(&'static str),
-    /// A click on the control, where there is one.
+    /// A click on the control, if it exists.
     ClickIfThere(&'static str),
     /// A click on this page in the list of the preferences.
     Page(&'static str),
-    /// A click on the lower left corner, beside everything that opens over the window.
+    /// A click on the lower left corner, beside any popup over the window.
     ClickBeside,
 }
 use Act::{Click, ClickBeside, ClickIfThere, Page, Press};
@@ -178,7 +178,7 @@ impl Twin {
         self.window.run_steps(3);
     }
 
-    /// Where a control of one of these roles is whose name contains `words`.
+    /// Returns the place of a control with one of these roles, whose name contains `words`.
     fn find(&mut self, words: &str, roles: &[Role]) -> Option<Pos2> {
         // Content from another thread may take some frames.
         for _ in 0..50 {
@@ -253,7 +253,7 @@ impl Picture {
 
 /// The real window on a screen of its size, and its twin.
 struct Scene {
-    // Ends before its screen.
+    // The first field, so that the program ends before its screen.
     _azel: Running,
     screen: Screen,
     size: [u32; 2],
@@ -276,7 +276,7 @@ impl Scene {
         scene.point_away();
         let (theme, _) = THEMES[0];
         wait_for("the first picture", || scene.is_drawn(theme).then_some(()));
-        // Both have found their passes and read their units.
+        // Wait until both windows have found their passes and read their units.
         thread::sleep(4 * SETTLES_IN);
         scene.twin.window.run_steps(3);
         scene
@@ -286,7 +286,7 @@ impl Scene {
         Picture { width: self.size[0] as usize, pixels: self.screen.picture() }
     }
 
-    /// Returns `true` if STOP is at its place in this theme's red, over a picture.
+    /// Returns `true` if STOP is at its place in this theme's red, and the screen shows a picture.
     fn is_drawn(&self, theme: ThemeName) -> bool {
         let picture = self.picture();
         let stop = theme.tokens().stop;
@@ -321,14 +321,15 @@ impl Scene {
         self.point_away();
     }
 
-    /// Leaves the pointer where it covers and highlights nothing.
+    /// Moves the pointer to a place where it covers and highlights nothing.
     fn point_away(&self) {
         let middle = self.size[0] / 2;
         self.screen.xdotool(&["mousemove", &middle.to_string(), "1"]);
         self.twin.window.hover_at(Pos2::new(middle as f32, 1.0));
     }
 
-    /// Takes every view in each of the themes, and keeps the pictures in `folder`.
+    /// Takes a picture of every view in each of the themes, and keeps it in `folder`. Returns the
+    /// number of pictures.
     fn take(&mut self, themes: &[(ThemeName, &str)], folder: &Path) -> usize {
         let mut taken = 0;
         let mut last: Option<Picture> = None;
@@ -361,8 +362,8 @@ impl Scene {
         taken
     }
 
-    /// Waits until the window is in this theme. A busy machine may lose the key, which is then
-    /// pressed again.
+    /// Waits until the window has this theme. A busy machine may lose the key, so the function
+    /// presses it again.
     fn wait_for_theme(&self, theme: ThemeName, what: &str) {
         let mut polls = 0;
         wait_for(what, || {

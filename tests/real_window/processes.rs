@@ -2,7 +2,7 @@
 
 use std::{fs, net::SocketAddr};
 
-/// A process; its start time distinguishes it from a later one with the same id.
+/// Process with its start time, because a later process may have the same id.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Process {
     pub(super) id: u32,
@@ -41,7 +41,7 @@ pub(super) fn is_stopped(id: u32) -> bool {
     stat(id).is_some_and(|now| now.state == 'T')
 }
 
-/// Running dead-men that `parent` has started.
+/// Returns the running dead-men that `parent` has started.
 pub(super) fn dead_men_of(parent: u32) -> Vec<Process> {
     let ids = fs::read_dir("/proc").expect("/proc").filter_map(|entry| {
         let name = entry.ok()?.file_name();
@@ -58,7 +58,7 @@ pub(super) fn dead_men_of(parent: u32) -> Vec<Process> {
         .collect()
 }
 
-/// Number of open connections to the listener at `address`.
+/// Returns the number of open connections to the listener at `address`.
 pub(super) fn established_at(address: SocketAddr) -> usize {
     let port = format!(":{:04X}", address.port());
     let table = fs::read_to_string("/proc/net/tcp").expect("/proc/net/tcp");

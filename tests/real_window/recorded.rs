@@ -22,7 +22,7 @@ use jiff::{Timestamp, ToSpan as _};
 use crate::units::{Units, antenna, measured, station, until};
 
 const ISS: u32 = 25_544;
-/// The clock of the unit is late by this, which the report explains.
+/// Delay of the unit's clock, which the report of the pass explains.
 const LATE: Duration = Duration::from_millis(1500);
 const BEFORE_AOS: Duration = Duration::from_mins(4);
 
@@ -55,14 +55,15 @@ impl Tracked {
         Self { _folder: folder, record }
     }
 
-    /// Makes it the record of the demo station in this folder of records.
+    /// Copies the record to the place of the demo station's record in the folder `records`.
     pub(super) fn put(&self, records: &Path) {
         std::fs::create_dir_all(records).expect("a folder");
         std::fs::copy(&self.record, demo_record_path(records)).expect("a record");
     }
 }
 
-/// The highest pass of the last day: older ones are not kept as they were shown.
+/// Returns the highest pass of the last day. The record does not keep older passes as Azel showed
+/// them.
 fn last_pass(station: &Station) -> Pass {
     let now = Timestamp::now();
     let catalog = bundled().expect("elements");

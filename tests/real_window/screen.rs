@@ -12,13 +12,13 @@ use std::{
     time::Duration,
 };
 
-/// Longer than any step here takes on a slow machine.
+/// Time limit of any wait in these tests, long enough for a slow machine.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// Position in a window of 1440 x 900 without the demo banner.
+/// Position of Manual in a window of 1440 x 900 without the demo banner, pixels.
 const MANUAL: [&str; 2] = ["1218", "456"];
 const X_PLUS_X: &str = "1228";
-/// Possible heights of the key: notes above push the keys down by up to three lines.
+/// Possible y positions of the key X+, pixels: notes above push the keys down by up to three lines.
 const X_PLUS_Y: [&str; 3] = ["687", "640", "664"];
 
 /// A process that is killed on drop.
@@ -38,12 +38,12 @@ impl Running {
         send_signal(name, &self.id().to_string());
     }
 
-    /// Sends a signal to its process group, which it must lead.
+    /// Sends a signal to the process group, which the process must lead.
     pub(super) fn signal_group(&self, name: &str) {
         send_signal(name, &format!("-{}", self.id()));
     }
 
-    /// Waits for its end, by itself or by a signal.
+    /// Waits until the process ends, on its own or by a signal.
     pub(super) fn wait_for_end(&mut self) {
         wait_for("the process to end", || self.0.try_wait().expect("a child"));
     }
@@ -52,7 +52,7 @@ impl Running {
         self.0.try_wait().expect("a child").is_none()
     }
 
-    /// Exit code, once it has ended by itself.
+    /// Waits for the end of the program and returns its exit code; `None` after a signal.
     pub(super) fn exit_code(&mut self) -> Option<i32> {
         wait_for("the program to end", || self.0.try_wait().expect("a child")).code()
     }
@@ -70,7 +70,7 @@ impl Drop for Running {
     }
 }
 
-/// Asks until there is an answer.
+/// Calls `ask` until it returns an answer, for at most [`PATIENCE`].
 pub(super) fn wait_for<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
     let start = Instant::now();
     loop {
@@ -82,7 +82,7 @@ pub(super) fn wait_for<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
     }
 }
 
-/// A virtual screen.
+/// Virtual screen with its X server and a folder for the program's files.
 pub(super) struct Screen {
     display: String,
     pub(super) server: Running,
@@ -95,7 +95,8 @@ impl Screen {
         let server = Running::start(
             Command::new("Xvfb")
                 .args([&display, "-screen", "0", &format!("{size}x24"), "-nolisten", "tcp"])
-                // Without this it restarts whenever its last client leaves, and drops a new one.
+                // Without this option, Xvfb restarts whenever its last client leaves, and drops a
+                // new one.
                 .arg("-noreset")
                 .stderr(Stdio::null()),
         );
@@ -124,7 +125,7 @@ impl Screen {
         command
     }
 
-    /// The program on this screen, and the id of its window.
+    /// Starts the program on this screen. Returns it with the id of its window.
     pub(super) fn azel(&self, arguments: &[&str]) -> (Running, String) {
         let mut command = self.command(env!("CARGO_BIN_EXE_azel"));
         self.window_of(command.args(arguments).env("AZEL_LOG", "error"))
@@ -132,7 +133,7 @@ impl Screen {
 
     /// Starts `command`, which opens the program's window on this screen.
     pub(super) fn window_of(&self, command: &mut Command) -> (Running, String) {
-        // Alarms of a test neither show nor sound on the desktop of who runs it.
+        // Keep the alarms of a test from the desktop and the speakers of its user.
         command.env("DBUS_SESSION_BUS_ADDRESS", "unix:path=/nowhere").env("PATH", "");
         let mut running = Running::start(command);
         let window = wait_for("the window", || {
@@ -167,8 +168,8 @@ impl Screen {
         connection.flush().expect("the screen");
     }
 
-    /// Switches to Manual and presses the key X+ where it may be. Each attempt tries another
-    /// place.
+    /// Switches to Manual and presses the key X+ at one of its possible places. Each attempt tries
+    /// another place.
     pub(super) fn press_x_plus(&self, attempt: usize) {
         let [x, y] = MANUAL;
         self.xdotool(&["mousemove", x, y, "click", "1"]);
@@ -176,7 +177,7 @@ impl Screen {
         self.xdotool(&["mousemove", X_PLUS_X, y, "mousedown", "1"]);
     }
 
-    /// Number of antennas marked on disk as moved by hand and not proved to stand.
+    /// Returns the number of antennas marked on disk as moved by hand and not proved to stand.
     pub(super) fn marks(&self) -> usize {
         let folder = self.folder.path().join(".local/share/azel/marks");
         fs::read_dir(folder).map_or(0, Iterator::count)
@@ -191,7 +192,7 @@ impl Screen {
         String::from_utf8_lossy(&output.stdout).into_owned()
     }
 
-    /// Pixels of the screen.
+    /// Returns the pixels of the screen, three bytes each.
     pub(super) fn picture(&self) -> Vec<u8> {
         let output = self
             .command("import")
@@ -248,7 +249,7 @@ impl Satrak {
         satrak
     }
 
-    /// Next line with `word`, unless it takes longer than half a second.
+    /// Returns the next line with `word`, unless it takes longer than half a second.
     pub(super) fn line_soon(&mut self, word: &str) -> Option<String> {
         let until = Instant::now() + Duration::from_millis(500);
         while let Ok(line) =
@@ -261,7 +262,7 @@ impl Satrak {
         None
     }
 
-    /// Next line with `word`, from the end of the last search.
+    /// Waits for the next line with `word` after the end of the last search.
     pub(super) fn wait_for_line(&mut self, word: &str) -> String {
         wait_for(word, || {
             while let Ok(line) = self.lines.try_recv() {

@@ -1,9 +1,9 @@
-//! Acts of an operator, and their required results.
+//! Acts of an operator and their results.
 
 use super::screen::{Satrak, Screen, wait_for};
 
-/// Switches to Manual and holds the key X+ until the unit was told to move. Repeats the
-/// clicks, for one before the window shows the key does nothing.
+/// Switches to Manual and holds the key X+ until the unit receives the motion. Repeats the clicks,
+/// because a click before the window shows the key does nothing.
 fn hold_x_plus(screen: &Screen, satrak: &mut Satrak) {
     let mut attempts = 0..;
     wait_for("the jog", || {
@@ -49,7 +49,7 @@ fn a_jog_ends_with_its_key_with_esc_and_with_the_window() {
     screen.release_key();
 
     hold_x_plus(&screen, &mut satrak);
-    // The window asks about the moving antenna; the question takes the key.
+    // The window asks about the moving antenna, and the question ends the held key.
     screen.close(&window);
     satrak.wait_for_line("in payload=STOP=");
     screen.release_key();
@@ -57,7 +57,8 @@ fn a_jog_ends_with_its_key_with_esc_and_with_the_window() {
     satrak.wait_for_line("in payload=STOP=");
     wait_for("proved standstill", || (screen.marks() == 0).then_some(()));
     std::thread::sleep(std::time::Duration::from_secs(1));
-    // On a slow screen a late frame ends the jog before the question, and the first time closes.
+    // On a slow screen, a late frame may end the jog before the question. The first request then
+    // closes the window.
     if azel.runs() {
         screen.close(&window);
     }

@@ -1,5 +1,5 @@
-//! A simulated Satrak in this process, on a real socket: it accepts one client at a time,
-//! and records what each said and when.
+//! A simulated Satrak in this process, on a real socket. It accepts one client at a time and
+//! records the requests of each with their times.
 
 use std::{
     net::SocketAddr,
@@ -25,7 +25,7 @@ const STOP: &str = "STOP=";
 pub(super) struct Unit {
     pub(super) address: SocketAddr,
     control: Control,
-    /// Times at which the served clients came.
+    /// Times at which the served clients connected.
     clients: Arc<Mutex<Vec<Instant>>>,
     _runtime: Runtime,
 }
@@ -51,7 +51,7 @@ impl Unit {
         Self { address, control, clients, _runtime: runtime }
     }
 
-    /// Payloads received since then, with their times.
+    /// Returns the payloads received since then, with their times.
     pub(super) fn heard_since(&self, since: Instant) -> Vec<(Instant, String)> {
         let heard = self.control.received().into_iter();
         heard.filter(|(at, _)| *at >= since).collect()
@@ -72,7 +72,7 @@ impl Unit {
         self.hears_since(since, STOP).is_some()
     }
 
-    /// Waits for STOP, and then until the metal stands. Returns the time that STOP took.
+    /// Waits for STOP, and then until the antenna stands. Returns the time that STOP took.
     pub(super) fn wait_for_stop(&self, since: Instant) -> Duration {
         let at = wait_for("STOP", || self.hears_since(since, STOP));
         wait_for("standstill", || (!self.is_moving()).then_some(()));
@@ -83,7 +83,7 @@ impl Unit {
         self.control.state().is_moving
     }
 
-    /// Times at which the clients came, newest last.
+    /// Returns the times at which the clients connected, newest last.
     pub(super) fn clients(&self) -> Vec<Instant> {
         self.clients.lock().expect("nobody panics with it").clone()
     }
@@ -98,7 +98,7 @@ impl Unit {
     }
 }
 
-/// Serves one client at a time; another one finds its connection closed.
+/// Serves one client at a time, and closes the connection of any other.
 async fn serve(listener: TcpListener, control: Control, clients: Arc<Mutex<Vec<Instant>>>) {
     let place = Arc::new(tokio::sync::Semaphore::new(1));
     while let Ok((stream, _)) = listener.accept().await {
@@ -108,7 +108,7 @@ async fn serve(listener: TcpListener, control: Control, clients: Arc<Mutex<Vec<I
         tokio::spawn(async move {
             let _taken = taken;
             stream.set_nodelay(true).ok();
-            // How a client leaves does not matter here.
+            // Ignore how the client leaves.
             let _ = control.serve(stream).await;
         });
     }

@@ -1,5 +1,5 @@
-//! Automatic operation of a station with three antennas: what was tracked is
-//! the schedule, and each difference has its cause in the list of the day. An hour and a half here;
+//! Automatic operation of a station with three antennas. The tracked passes match the schedule, and
+//! the list of the day has the cause of each difference. The test takes an hour and a half;
 //! `AZEL_HOURS=24 cargo test --test azel rehearsed::automatic` takes a day.
 
 use std::{sync::Arc, time::Duration};
@@ -25,7 +25,7 @@ use super::{
 };
 use crate::common::units::{self, measured, start, until};
 
-/// The station with its antennas on the way to little rest and no long warning.
+/// Returns a station that starts in automatic operation and warns of rest only after a day.
 fn station() -> Station {
     let mut station = units::station();
     station.scheduling.warn_after_rest_min = 24.0 * 60.0;
@@ -35,8 +35,8 @@ fn station() -> Station {
     station
 }
 
-/// Observations of the station on the way. They are collected because the list of the day covers
-/// only one day and one run.
+/// Observations of the running station. The list of the day covers only one day and one run, so the
+/// test collects them.
 #[derive(Default)]
 struct Witness {
     /// Entries of the schedule that were under way: antenna, satellite and AOS.
@@ -68,7 +68,7 @@ impl Witness {
         self.flown.iter().any(|(id, of)| *id == antenna && is_same(of.pass, pass))
     }
 
-    /// Looks each second until the clock of the station shows a time; a pass lasts for minutes.
+    /// Looks each second until the clock of the station shows `at`; a pass lasts for minutes.
     async fn until_time(&mut self, client: &Client, at: Timestamp) {
         while client.now().utc < at {
             self.look(client);
@@ -125,10 +125,10 @@ async fn a_station_takes_its_passes_by_itself_and_each_that_it_misses_has_its_ca
     witness.until_time(&client, add_hours(middle, 0.1)).await;
     scene.units.dish.set_fault(satrak::Fault::Silence, false);
 
-    // The program ends and is started again.
+    // The program ends and starts again.
     witness.until_time(&client, add_hours(start(), hours * 0.7)).await;
     witness.look(&client);
-    // A pass under way has no line in either run.
+    // A pass under way has no entry in the list of either run.
     let told = std::mem::take(&mut witness.begun).into_iter();
     witness.begun = told.filter(|(antenna, pass)| witness.is_told(*antenna, *pass)).collect();
     assert!([dish, mast].iter().all(|antenna| operation(&client, *antenna).is_on()));
@@ -139,7 +139,7 @@ async fn a_station_takes_its_passes_by_itself_and_each_that_it_misses_has_its_ca
         assert!(operation(&client, antenna).is_on(), "{name} goes on");
     }
 
-    // The unit of the dish refuses what it is sent, until that has cost it two passes.
+    // The unit of the dish refuses settings until that has cost it two passes.
     witness.until_time(&client, add_hours(start(), hours)).await;
     scene.units.dish.set_fault(satrak::Fault::RefuseSettings, true);
     let refused = Operation::Off(OffBecause::Failures);
@@ -166,7 +166,7 @@ async fn a_station_takes_its_passes_by_itself_and_each_that_it_misses_has_its_ca
         println!("{antenna:?} {} {:.0} of {:.0} s {:?}", of.name, of.in_beam_s, of.of_s, of.cause);
     }
     let had = |of: &Flown| of.in_beam_s > 0.97 * of.of_s;
-    // Passes that the test meant to disturb, by the cause.
+    // Antennas of the passes that the test disturbed on purpose, by cause.
     let causes = |wanted: MissCause| {
         flown.iter().filter(move |(_, of)| of.cause == Some(wanted)).map(|(antenna, _)| *antenna)
     };

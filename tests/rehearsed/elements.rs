@@ -28,7 +28,7 @@ fn report(client: &Client) -> Option<SourceReport> {
 
 #[tokio::test(start_paused = true)]
 async fn a_password_that_is_typed_while_elements_are_read_is_used_afterwards() {
-    // Without favourites no server is asked, and the attempts are counted.
+    // Without favourites, Azel asks no server on its own, and the test counts the attempts.
     let station = Station { favourites: [].into(), ..units::station() };
     let scene = Scene::new("2026-08-12T11:00:00Z".parse().unwrap(), &station);
     let client = scene.client();
@@ -46,7 +46,7 @@ async fn a_password_that_is_typed_while_elements_are_read_is_used_afterwards() {
     until("another attempt", || report(&client).filter(|report| report.failures == 2)).await;
 }
 
-/// These elements under another name.
+/// Returns these elements under another name.
 fn renamed(elements: &Elements) -> Elements {
     let mut text = Vec::new();
     write_omm_json([elements], &mut text).unwrap();

@@ -14,12 +14,13 @@ use crate::common::units;
 
 const SENTINEL_6A: u32 = 46_984;
 const AQUA: u32 = 27_424;
-/// Shortly before passes in which the azimuth of the Genius comes close to an end of its travel.
+/// Start times shortly before passes in which the azimuth of the Genius comes close to an end of
+/// its travel.
 const STARTS: [&str; 3] = ["2026-08-13T05:50:00Z", "2026-08-14T04:15:00Z", "2026-08-14T06:15:00Z"];
-/// A pass may lose this while the antenna turns back from an end, seconds.
+/// Max time that a pass may lose while the antenna turns back from an end, seconds.
 const MAX_LOST_S: f64 = 5.0;
 
-/// A station with one antenna, whose axes come to rest a little past their targets.
+/// Rehearses a station with one antenna, whose axes come to rest a little past their targets.
 fn rehearse(station: &Station, antenna: &str, start: &str, hours: f64, passes: usize) {
     let mechanics = Mechanics {
         dead_time: Duration::from_millis(200),
@@ -57,8 +58,8 @@ fn a_rotator_that_runs_past_its_targets_does_not_wrap_at_an_end_of_its_travel() 
     }
 }
 
-/// The first pass leaves the travel at one end, where the unit reports no azimuth, and the second
-/// enters it at the other.
+/// The first pass leaves the travel at one end, where the unit reports no azimuth. The second pass
+/// enters the travel at the other end.
 #[test]
 fn an_axis_that_stands_at_a_limit_sets_out_in_time_for_its_next_pass() {
     let addresses = DemoAddresses { rc2000c: "horn:1".to_owned(), ..DemoAddresses::default() };

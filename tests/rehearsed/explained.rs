@@ -1,8 +1,9 @@
 //! Passes that simulated units track without a fault and with one, and the causes that their
-//! reports name. The long form takes a range of seeds; each seed is a pass of either kind:
+//! reports name. The long form takes a range of seeds. Each seed gives one pass of either kind:
 //!
 //! ```text
-//! AZEL_SEED=1 AZEL_CASES=1000 cargo test --release --test azel rehearsed::explained -- --nocapture
+//! AZEL_SEED=1 AZEL_CASES=1000 \
+//!   cargo test --release --test azel rehearsed::explained -- --nocapture
 //! ```
 
 use std::{collections::BTreeMap, num::NonZeroU32, time::Duration};
@@ -55,8 +56,8 @@ struct Flight {
 }
 
 impl Flight {
-    /// Elements of a second before, by which the satellite is this much further on, and its plane
-    /// half as much.
+    /// Returns elements of a second before. They put the satellite `by_deg` further along its orbit
+    /// and turn its plane by half as much.
     fn older(&self, by_deg: f64) -> Elements {
         let mut written = serde_json::to_value(&self.elements).unwrap();
         let epoch: Timestamp = serde_json::from_value(written["epoch"].clone()).unwrap();
@@ -71,7 +72,7 @@ impl Flight {
     }
 }
 
-/// A pass of one of the favourites that comes up well.
+/// Draws a pass of one of the favourites that rises above 20 degrees.
 fn flight(catalog: &Catalog, dice: &mut Dice) -> Flight {
     let station = Station::default();
     let favourites = station.favourites.numbers();
@@ -94,7 +95,7 @@ fn flight(catalog: &Catalog, dice: &mut Dice) -> Flight {
     }
 }
 
-/// Imperfections that an antenna may have without a fault.
+/// Draws imperfections that an antenna may have without a fault.
 fn mechanics(dice: &mut Dice) -> Mechanics {
     Mechanics {
         dead_time: Duration::from_millis(dice.below(200) as u64),
@@ -104,14 +105,14 @@ fn mechanics(dice: &mut Dice) -> Mechanics {
     }
 }
 
-/// An antenna of a make whose unit has something wrong.
+/// Antenna of one make, and the errors of its unit.
 struct Case {
     name: &'static str,
     half_beam_deg: f64,
     mechanics: Mechanics,
-    /// The site of a Satrak.
+    /// Site in a Satrak.
     site: Site,
-    /// The elements that a Satrak holds, where they are not those of the station.
+    /// Elements in a Satrak, if they differ from those of the station.
     old: Option<Elements>,
     /// The trouble, and the share of the pass after which it begins.
     trouble: Option<(Trouble, f64)>,
@@ -125,8 +126,8 @@ impl Case {
         Self { name, half_beam_deg, mechanics, site, old, trouble, is_stopped }
     }
 
-    /// Root mean square of both axes without a fault, degrees. A Genius turns by whole degrees, and an
-    /// RC2000C stops and starts.
+    /// Returns the root mean square error of both axes without a fault, degrees. A Genius turns by
+    /// whole degrees, and an RC2000C stops and starts.
     fn noise_deg(&self) -> f64 {
         let Mechanics { noise_deg, sway_deg, .. } = self.mechanics;
         let steps_deg = match self.name {
@@ -206,18 +207,19 @@ impl Case {
         case
     }
 
-    /// Has the antenna track the pass, and returns its report; `None` where it does not come to track.
+    /// Lets the antenna track the pass and returns its report; `None` if the antenna does not come
+    /// to track.
     async fn report(&self, flight: &Flight, seed: u64) -> Option<RecordedReport> {
         let number = flight.elements.catalog_number();
         let station = Station { favourites: [number].into(), ..units::station() };
         let mut station = calibrated(station);
         station.antennas.retain(|antenna| antenna.name == self.name);
-        // A unit that leaves refraction out has another cause, which is known.
+        // Without air, a unit that leaves refraction out makes no error.
         station.site = station.site.airless();
         let antenna_of = &mut station.antennas[0];
         antenna_of.beam_width_deg = 2.0 * self.half_beam_deg;
         antenna_of.sway_deg = antenna_of.sway_deg.max(self.mechanics.sway_deg);
-        // A unit that misreads a rising satellite stands no lower than that.
+        // A unit that misreads its angles may follow a rising satellite from the horizon.
         antenna_of.limits.minimum_elevation_deg = 0.0;
         let aos = flight.pass.aos.time;
         let start = aos - 4.minutes();
@@ -236,7 +238,7 @@ impl Case {
             Some(listed)
         })
         .await;
-        // It is refused until the faults of the unit are known.
+        // Azel refuses the track until it knows the faults of the unit.
         let begun = until_looking(Duration::from_secs(20), "the track", || {
             let tracks = antenna(&client, self.name)?.1.tracks.is_some();
             if !tracks && client.now().utc < aos {
@@ -305,7 +307,7 @@ impl Case {
     }
 }
 
-/// Seconds lost to each cause.
+/// Returns the seconds lost to each cause.
 fn lost_s(report: &RecordedReport) -> BTreeMap<String, f64> {
     let mut lost_s = BTreeMap::new();
     for lost in &report.report.losses {
@@ -314,7 +316,8 @@ fn lost_s(report: &RecordedReport) -> BTreeMap<String, f64> {
     lost_s
 }
 
-/// The causes of the error, and what took the pass from the antenna.
+/// Returns the causes of the error, and the outside causes that took time of the pass from the
+/// antenna.
 fn named(report: &RecordedReport) -> Vec<String> {
     let kind = |value: serde_json::Value| value.as_str().unwrap().to_owned();
     let lost =
@@ -373,7 +376,8 @@ async fn no_cause_is_named_in_the_report_of_a_pass_without_a_fault() {
 async fn the_fault_of_a_simulated_unit_is_named_in_the_report_of_its_pass() {
     let (seed, cases) = (number("AZEL_SEED", SEED), number("AZEL_CASES", CASES));
     let catalog = bundled().unwrap();
-    // By fault: cases, not tracked or too small to spoil the pass, named, named alone.
+    // Counts by fault: cases, cases without a track or a spoilt pass, cases with the fault named,
+    // and cases with it named alone.
     let mut table = BTreeMap::<&str, [u32; 4]>::new();
     for case in seed..seed + cases {
         let mut dice = Dice::new(case);

@@ -1,4 +1,4 @@
-//! A disk that is full from before a pass to its middle, for longer than all that waits for it holds.
+//! Full disk from before a pass to its middle, for longer than the queues for the disk can hold.
 
 use std::{
     fs,
@@ -26,19 +26,19 @@ use super::{
 use crate::common::units::{self, LOOK, antenna, until};
 
 const MAST: &str = "Mast";
-/// The log of positions is full after a quarter of an hour.
+/// Poll rates that fill the log of positions in a quarter of an hour.
 const RATES: PollRates = PollRates { idle_hz: 10.0, moving_hz: 10.0 };
-/// Commands while the disk is full: more than entries that wait for it.
+/// Number of commands while the disk is full: more than the entries that can wait for it.
 const COMMANDS: usize = 20_300;
-/// Commands that a station takes in one turn.
+/// Number of commands that a station takes in one turn.
 const AT_ONCE: usize = 58;
-/// Peaks that are entered beside them. A picture shows all that were, so that the film grows past what
-/// waits for the disk.
+/// Number of peaks that the test enters besides the commands. A picture shows all earlier peaks, so
+/// the film outgrows the queue for the disk.
 const PEAKS: u32 = 4;
-/// Longest time between two positions that are asked for ten times a second.
+/// Max time between two positions that Azel reads ten times a second, seconds.
 const LONGEST_S: f64 = 0.3;
 
-/// A disk that takes nothing until this is dropped.
+/// Disk that takes nothing until this value is dropped.
 struct FullDisk {
     folder: PathBuf,
     aside: PathBuf,
@@ -48,7 +48,7 @@ impl FullDisk {
     fn at(folder: &Path) -> Self {
         let aside = folder.with_extension("aside");
         fs::rename(folder, &aside).unwrap();
-        // A file where the folder has to be.
+        // A file in the place of the folder makes every write fail.
         fs::write(folder, "").unwrap();
         Self { folder: folder.to_owned(), aside }
     }
@@ -126,7 +126,7 @@ async fn a_disk_that_is_full_in_a_pass_costs_what_did_not_fit_and_neither_the_tr
     let [entries, positions, ..] = lost.map(|count| usize::try_from(count).unwrap());
     let commands = rows_in(ended.path(), RowKind::Entry(Kind::Command));
     assert!(commands.iter().filter(|row| is_ordered(row)).count() + entries >= COMMANDS);
-    // The log of the session held those of the pass: all but one stretch is there.
+    // The log of the session kept the positions of the pass, so only one stretch is missing.
     let both = after.iter().zip(after.iter().skip(1));
     let mut apart: Vec<f64> =
         both.map(|(one, next)| seconds_between(one.time, next.time)).collect();

@@ -1,4 +1,4 @@
-//! Learned figures of the drives outlast the session and the station that learned them.
+//! Learned figures of the drives, which outlast the session and the station that learned them.
 
 use azel::{
     contract::{

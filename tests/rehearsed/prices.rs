@@ -12,7 +12,7 @@ use azel::{
 use super::scene::Scene;
 use crate::common::units::{measured, start, station, until};
 
-/// Left out passes that are looked at.
+/// Number of left-out passes that the test checks.
 const LOOKED_AT: usize = 6;
 
 async fn planned(client: &Client, after: u64) -> Arc<Planned> {
@@ -29,7 +29,7 @@ fn choose(client: &Client, pass: PassListKey, take: Option<Take>) {
     let _ = client.send(Command::ChoosePass { satellite: pass.0, tca, take });
 }
 
-/// Each change without what the passing of time moves.
+/// Returns each change as text, without the figures that change as time passes.
 fn in_short(changes: &[Change]) -> Vec<String> {
     let short = changes.iter().map(|change| match change.changed {
         Changed::Cut { late_s, early_s } => {
@@ -65,7 +65,7 @@ async fn check(station: &Station) {
         let is_rule = |why: &LeftOutReason| {
             matches!(why, LeftOutReason::Refused(Refusal::Rule(Rule::MinElevation { .. })))
         };
-        // Azel plans again once it knows where the antennas stand.
+        // Azel plans again once it knows the positions of the antennas.
         now = planned(&client, now.revision - 1).await;
         let mut left_out: Vec<_> = now.schedule.left_out.iter().collect();
         left_out.sort_by_key(|left| !is_rule(&left.reason) || by_rule > 1);

@@ -38,7 +38,7 @@ pub(super) fn rows(scene: &Scene, what: RowKind) -> Vec<Row> {
     rows_in(scene.folder(), what)
 }
 
-/// The record of the station in this folder.
+/// Returns the path of the station's record in this folder.
 pub(super) fn path_in(folder: &Path) -> PathBuf {
     record_path(&folder.join("records"), &folder.join("station.toml"))
 }
@@ -55,10 +55,11 @@ pub(super) fn rows_in(folder: &Path, what: RowKind) -> Vec<Row> {
     rows
 }
 
-/// Looks for a report, one each five seconds; a look reads the file of the record.
+/// Max number of looks for a report, one every five seconds; each look reads the file of the
+/// record.
 const LOOKS: usize = 2_000;
 
-/// The reports of passes, once there are any.
+/// Waits for the reports of passes and returns them.
 pub(super) async fn reports(scene: &Scene) -> Vec<Row> {
     for _ in 0..LOOKS {
         let reports = rows(scene, RowKind::Pass);
@@ -80,7 +81,7 @@ pub(super) fn next_pass(station: &Station) -> Pass {
     passes(&propagator, &search, &|| false)[0]
 }
 
-/// Tracks the next pass of the ISS that is listed, with the antenna of this name.
+/// Tracks the next listed pass of the ISS with the antenna of this name.
 pub(super) async fn track(client: &Client, name: &str) {
     let id = measured(client, name).await;
     let pass = until("the pass", || {
@@ -116,7 +117,7 @@ async fn a_pass_that_was_tracked_is_reported_when_it_is_over() {
     let report: PassReport = serde_json::from_value(told.clone()).unwrap();
     assert!((report.counted_s - pass.duration_s()).abs() < 60.0, "{report:?}");
     assert!(report.known_s > 0.9 * report.counted_s, "{report:?}");
-    // Whole degrees inside half of a beam that is wider.
+    // Steps of whole degrees stay within half of the wider beam.
     assert!(report.share() > 0.9, "{report:?}");
     assert!(rows(&scene, RowKind::Position).len() > 500);
 
@@ -199,7 +200,7 @@ async fn with_a_pointing_model_the_axes_read_otherwise_and_the_report_tells_no_e
     })
     .await
     .unwrap();
-    // The model was flown with, and is found again.
+    // The pass was flown with the model, and the fit finds the model again.
     let offset = &fit.terms[0];
     let value = offset.value.unwrap();
     assert_eq!((fit.passes, offset.term), (1, Term::AzimuthOffset));
@@ -338,7 +339,7 @@ async fn a_pass_under_way_is_reported_when_the_program_ends() {
     assert!(report.in_beam_s > 60.0 && report.known_s < 0.8 * report.counted_s, "{report:?}");
 }
 
-/// Part of its record that the station publishes once it has read this.
+/// Asks for a part of the record and waits until the station publishes it.
 async fn look(client: &Client, look: &RecordLook) -> Found {
     client.send(Command::LookAtRecord(Some(look.clone()))).unwrap();
     until("the record", || {

@@ -1,6 +1,6 @@
-//! A rehearsal beside what then happens with the same station, in paused time here.
+//! Rehearsals compared with the later events of the same station, here in paused time.
 //! `AZEL_REAL_TIME=1 cargo test --test azel rehearsed::rehearsal -- --nocapture` takes half an hour
-//! of real time, with a station on threads of its own.
+//! of real time, with a station on its own threads.
 
 use std::{num::NonZeroU32, path::Path, sync::Arc};
 
@@ -24,19 +24,19 @@ use super::{
 };
 use crate::common::units::{self, Units, measured, until};
 
-/// Difference from which two errors are not the same, degrees.
+/// Tolerance between two equal errors, degrees.
 const ALIKE_DEG: f64 = 0.02;
-/// Share of an error that is not the same either.
+/// Tolerance between two equal errors, as a share of an error.
 const ALIKE_SHARE: f64 = 0.2;
 
-/// Longest time from a pass to its report: the next pass of the satellite is later.
+/// Max time from a pass to its report; the next pass of the satellite is later.
 const AT_MOST: SignedDuration = SignedDuration::from_mins(10);
 
-/// Where a rehearsal begins, in counts of the RC2000C: its park position, 180 and 45 degrees. On the way
-/// from there, the rates of its axes are learned.
+/// Counts of the RC2000C at the start of a rehearsal: its park position, 180 and 45 degrees. On the
+/// way from there, Azel learns the rates of its axes.
 const PARKED: [u16; 2] = [1830, 930];
 
-/// The same station with an RC2000C that is calibrated: without, it can be sent nowhere.
+/// Calibrates the RC2000C of a station, because Azel cannot send an uncalibrated one anywhere.
 pub(super) fn calibrated(mut station: Station) -> Station {
     let demo =
         Station::demo(&DemoAddresses { rc2000c: "horn:1".to_owned(), ..DemoAddresses::default() });
@@ -47,7 +47,7 @@ pub(super) fn calibrated(mut station: Station) -> Station {
     station
 }
 
-/// Antennas of these names, for passes of METEOR-M2 4 and NOAA 20.
+/// Returns a station with the antennas of these names, for passes of METEOR-M2 4 and NOAA 20.
 fn station(names: &[&str]) -> Station {
     let mut station =
         calibrated(Station { favourites: [59_051, 43_013].into(), ..units::station() });
@@ -55,19 +55,19 @@ fn station(names: &[&str]) -> Station {
     station
 }
 
-/// One pass of the dish and one of the mast at the same time.
+/// The dish has one pass and the mast another one at the same time.
 #[test]
 fn what_was_rehearsed_is_what_then_happens() {
     check(&["Dish", "Mast"], 0.2, 2);
 }
 
-/// The plan prefers the others to the horn: it is alone here.
+/// The horn is alone here, because the plan prefers the other antennas.
 #[test]
 fn what_was_rehearsed_of_an_rc2000c_is_what_then_happens() {
     check(&["Horn"], 0.2, 1);
 }
 
-/// Compares at least `least` passes.
+/// Rehearses a station, runs it and compares at least `least` passes.
 fn check(names: &[&str], hours: f64, least: usize) {
     let is_live = std::env::var_os("AZEL_REAL_TIME").is_some();
     let mut runtime = tokio::runtime::Builder::new_current_thread();
@@ -102,7 +102,7 @@ fn check(names: &[&str], hours: f64, least: usize) {
     });
 }
 
-/// A station with threads of its own, recorded.
+/// Starts a recorded station with its own threads.
 fn live(start: Timestamp, folder: &Path, station: &Station) -> Handle {
     let clock = Clock::at_speed(start, NonZeroU32::MIN);
     let path = folder.join("station.toml");
@@ -118,7 +118,7 @@ fn live(start: Timestamp, folder: &Path, station: &Station) -> Handle {
     Handle::start(settings, units.outside(&clock), Arc::new(|| {})).unwrap()
 }
 
-/// Holds what was rehearsed against what happens with the station whose files are in `folder`.
+/// Compares a rehearsal with the events of the station whose files are in `folder`.
 async fn compare(rehearsed: &Rehearsed, client: &Client, folder: &Path, names: &[&str]) {
     for name in names {
         let antenna = measured(client, name).await;

@@ -1,4 +1,4 @@
-//! A pass of a station in memory, shown again from its record.
+//! A pass of a station in memory, replayed from its record.
 
 use std::{sync::Arc, time::Duration};
 
@@ -23,7 +23,7 @@ use super::{
 };
 use crate::common::units::{antenna, measured, station, until};
 
-/// Every how many snapshots one without an event is compared.
+/// Interval, in snapshots, at which the test compares a snapshot without an event.
 const BETWEEN: usize = 20;
 
 /// Collects the snapshots of a station until it ends.
@@ -35,7 +35,7 @@ async fn watch(mut client: Client) -> Vec<Arc<Snapshot>> {
     shown
 }
 
-/// All that a window takes of a snapshot, but for what a client looks at of the record.
+/// Returns all values that a window takes of a snapshot, except the client's look at the record.
 fn told(shown: &Snapshot) -> Value {
     let mut told = serde_json::to_value(shown).unwrap();
     told["recorded"] = Value::Null;
@@ -53,7 +53,7 @@ fn told(shown: &Snapshot) -> Value {
     })
 }
 
-/// Model that the window makes of a snapshot at `at`, with the ages of its values.
+/// Returns the model that the window makes of a snapshot at `at`, with the ages of its values.
 fn modelled(at: Timestamp, shown: &Snapshot) -> Value {
     let passed = Duration::try_from(at.duration_since(shown.moment.utc)).unwrap();
     let mut model =
@@ -76,7 +76,7 @@ fn modelled(at: Timestamp, shown: &Snapshot) -> Value {
     })
 }
 
-/// The Satrak tracks the pass on board.
+/// Starts a track of the pass on board of the Satrak.
 async fn track_on_board(client: &Client) {
     let dish = measured(client, "Dish").await;
     let pass = until("the pass", || {
@@ -88,7 +88,7 @@ async fn track_on_board(client: &Client) {
     until("the track", || antenna(client, "Dish")?.1.tracks).await;
 }
 
-/// A peak is entered, and a pointing model fitted to what is recorded.
+/// Enters a peak and fits a pointing model to the record.
 async fn fit_pointing(client: &Client) {
     let mast = measured(client, "Mast").await;
     let at = client.now().utc;

@@ -1,4 +1,4 @@
-//! A station that is saved while an antenna moves.
+//! Saves of a station while an antenna moves.
 
 use azel::{
     astro::{Angle, Site},

@@ -32,7 +32,7 @@ pub(crate) struct Scene {
 /// Records that a station keeps besides its file.
 #[derive(Clone, Copy, Default)]
 struct Keeps {
-    /// Records of what is owed to units.
+    /// `true` to keep records of STOPs owed to units.
     marks: bool,
     record: bool,
 }
@@ -42,17 +42,18 @@ impl Scene {
         Self::keeping(start, station, Keeps::default())
     }
 
-    /// A station that is recorded.
+    /// Starts a station with a record.
     pub(super) fn recorded(start: Timestamp, station: &Station) -> Self {
         Self::keeping(start, station, Keeps { record: true, ..Keeps::default() })
     }
 
-    /// A station that keeps records of what is owed to units.
+    /// Starts a station that keeps records of STOPs owed to units.
     pub(super) fn marking(start: Timestamp, station: &Station) -> Self {
         Self::keeping(start, station, Keeps { marks: true, ..Keeps::default() })
     }
 
-    /// A station that is recorded, with these units; it had other elements before.
+    /// Starts a recorded station with these units; `before` is an earlier element set in its
+    /// history.
     pub(super) fn with_units(
         units: Units,
         clock: Clock,
@@ -72,7 +73,7 @@ impl Scene {
         Self::begun(units, clock, folder_of(station), keeps)
     }
 
-    /// A station whose clock a test sets.
+    /// Starts a station on a clock that the test sets.
     pub(super) fn by(clock: Clock, station: &Station) -> Self {
         let units = Units::new(&clock);
         Self::begun(units, clock, folder_of(station), Keeps::default())
@@ -93,14 +94,15 @@ impl Scene {
         Self { units, station, run: tokio::spawn(run), clock, folder, keeps, _jobs: jobs }
     }
 
-    /// Ends the station as it should; its files are left.
+    /// Ends the station in order and returns the folder of its files.
     pub(super) async fn ended(self) -> tempfile::TempDir {
         drop(self.station);
         self.run.await.unwrap();
         self.folder
     }
 
-    /// The station ends as it should, or as in a crash, and is started again; the units go on.
+    /// Ends the station in order, or with its files as after a crash, and starts it again. The
+    /// units keep running.
     pub(super) async fn started_again(self, is_crash: bool) -> Self {
         let left = self.folder().join("station.automatic.toml");
         let while_running = fs::read(&left).unwrap();
@@ -121,7 +123,7 @@ impl Scene {
     }
 }
 
-/// Places for passwords and files, away from the keyring of the user.
+/// Returns places for passwords and files, away from the keyring of the user.
 fn upload_places(folder: &Path) -> uploads::Places {
     let session = Arc::<MemoryKeyring>::default();
     uploads::Places {
@@ -133,7 +135,7 @@ fn upload_places(folder: &Path) -> uploads::Places {
     }
 }
 
-/// A folder with the file of the station.
+/// Creates a folder with the file of the station.
 fn folder_of(station: &Station) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     station::save(station, &folder.path().join("station.toml"), SPECS).unwrap();

@@ -1,5 +1,5 @@
-//! The size of the record of three antennas that are asked five times a second, of which one tracks
-//! all its passes. `AZEL_HOURS=24 TMPDIR=/dev/shm cargo test --test azel rehearsed::size -- --nocapture`
+//! Size of the record of three antennas. Azel asks each five times a second, and one tracks all its
+//! passes. `AZEL_HOURS=24 TMPDIR=/dev/shm cargo test --test azel rehearsed::size -- --nocapture`
 //! measures a day in some 20 minutes.
 
 use std::time::Instant;
@@ -15,7 +15,7 @@ use crate::common::units::{self, measured, start, until};
 
 const RATES: PollRates = PollRates { idle_hz: 5.0, moving_hz: 5.0 };
 const PARTS: u32 = 24;
-/// More than a day takes, bytes.
+/// Max size of the record of a day, bytes.
 const MOST: f64 = 1e9;
 
 #[tokio::test(start_paused = true)]
@@ -31,7 +31,7 @@ async fn the_record_of_a_day_fits_on_a_small_disk() {
     }
     let dish = measured(&client, "Dish").await;
     set_automatic(&client, dish, true).await;
-    // No wait lasts a day.
+    // A single wait may not last a day, so wait in parts.
     for part in 1..=PARTS {
         let end = add_seconds(start(), hours * 3600.0 * f64::from(part) / f64::from(PARTS));
         until("the end", || (client.now().utc > end).then_some(())).await;

@@ -11,8 +11,7 @@ use azel::{
 use super::scene::Scene;
 use crate::common::units::{Units, antenna, measured, start, station, until};
 
-/// Serializes every snapshot that it gets of a station until the station ends; returns
-/// their number.
+/// Serializes every snapshot of a station until the station ends. Returns the number of snapshots.
 async fn write_down(mut client: Client) -> usize {
     let mut count = 0;
     while client.changed().await {
@@ -20,7 +19,7 @@ async fn write_down(mut client: Client) -> usize {
         let text = serde_json::to_string(&*snapshot).unwrap();
         let back: Snapshot = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{e}: {text}"));
         assert_eq!(serde_json::to_string(&back).unwrap(), text);
-        // Only the catalog and the pass lists leave anything out.
+        // Only the catalog and the pass lists leave values out of the text.
         let shown = |of: &Snapshot| {
             let of = (
                 (&of.moment, &of.time_sync, &of.station, &of.sources),
@@ -35,7 +34,7 @@ async fn write_down(mut client: Client) -> usize {
     count
 }
 
-/// Switches one of nine kinds of trouble.
+/// Switches one of nine kinds of trouble on or off.
 fn trouble(kind: u32, units: &Units, is_on: bool) {
     use rc2000c::Fault as Line;
     use rotator_genius::Fault as Socket;
@@ -119,7 +118,7 @@ async fn with_trouble(client: &Client, units: &Units) {
     }
 }
 
-/// Waits for so many seconds of the station.
+/// Waits for `seconds` of the station's time.
 async fn passes(client: &Client, seconds: u64) {
     let from = client.now().steady;
     until("seconds", || ((client.now().steady - from).as_secs() >= seconds).then_some(())).await;

@@ -40,10 +40,10 @@ use super::{
 };
 use crate::common::units::{self, measured, start, until};
 
-/// Time from the start of the station to the pass, seconds.
+/// Time from the start of the station to AOS, seconds.
 const BEFORE_S: f64 = 240.0;
 
-/// A station with this antenna alone.
+/// Returns a station with this antenna alone, changed by `set`.
 fn station(antenna: &str, set: impl FnOnce(&mut Antenna)) -> Station {
     let mut station = units::station();
     station.antennas.retain(|of| of.name == antenna);
@@ -53,7 +53,7 @@ fn station(antenna: &str, set: impl FnOnce(&mut Antenna)) -> Station {
     station
 }
 
-/// Some minutes before a high pass of a favourite.
+/// Returns a time some minutes before a high pass of a favourite.
 fn before_a_pass() -> Timestamp {
     let station = Station::default();
     let catalog = bundled().unwrap();
@@ -83,7 +83,7 @@ pub(super) async fn scene_of(
     (scene, client, id)
 }
 
-/// The antenna is on its way to its first pass, and the unit is proved to hold it.
+/// Switches automatic operation on and waits for the proof that the unit has taken its first pass.
 pub(super) async fn proved(client: &Client, id: AntennaId) {
     set_automatic(client, id, true).await;
     until("the proof", || operation(client, id).taking()?.proved_at).await;
@@ -118,12 +118,12 @@ async fn until_lost(client: &Client, id: AntennaId) {
     .await;
 }
 
-/// Go-to away from where the dish starts.
+/// Returns a go-to away from the start position of the dish.
 fn elsewhere() -> Vec<u8> {
     Request::Motion(Motion::Goto(Goto::new(Some(200.0), Some(60.0)).unwrap())).to_bytes()
 }
 
-/// Another program sends this to the unit of the dish.
+/// Sends `bytes` to the unit of the dish from another program.
 pub(super) async fn by_another(scene: &Scene, bytes: &[u8]) {
     let (mut near, far) = tokio::io::duplex(4096);
     near.write_all(bytes).await.unwrap();
@@ -359,7 +359,7 @@ async fn an_antenna_that_is_turned_on_its_way_to_a_pass_is_left_to_whoever_did_i
     };
     let way_deg = until("5 deg of the way", changed).await;
     assert!(operation(&client, id).is_on());
-    // Back, the axis that has turned most.
+    // Turns the axis back that has turned most.
     let back = |at_deg: [f64; 2]| {
         let axis = usize::from(way_deg[1].abs() > way_deg[0].abs());
         let mut to_deg = at_deg;
@@ -506,7 +506,8 @@ async fn a_faulty_unit_raises_an_alarm_and_tracks_once_repaired() {
     assert_eq!(of.cause, Some(MissCause::NotReady(NotReady::Fault)));
 }
 
-/// Switches automatic operation of the Genius on, runs `change`, crashes the station and restarts it.
+/// Switches automatic operation of the Genius on, runs `change`, and restarts the station after a
+/// crash.
 async fn after_a_crash(
     set: impl FnOnce(&mut Antenna),
     change: impl AsyncFnOnce(&Scene, &Client, AntennaId),
@@ -685,7 +686,7 @@ async fn auto_track_of_a_unit_that_the_station_no_longer_has_is_switched_off_onc
         until_lost(&client, id).await;
         let mut station = Station::clone(&client.snapshot().station);
         if is_moved {
-            // To a unit that does not understand it.
+            // The new address leads to a unit that does not understand the requests.
             "Mast".clone_into(&mut station.antennas[0].name);
             "elsewhere:1".clone_into(&mut station.antennas[0].connection.address);
         } else {
@@ -746,7 +747,7 @@ async fn parking_for_the_end_is_not_taken_over_by_the_pass() {
     assert!(is_suspended() && scene.units.all_stand());
 }
 
-/// Between two passes: nothing moves, and the step is not noticed by a track.
+/// The clock steps between two passes, when nothing moves and no track notices the step.
 #[tokio::test(start_paused = true)]
 async fn a_clock_step_suspends_automatic_operation_first() {
     for by_s in [-86_400, 300, 86_400 * 365] {
@@ -801,7 +802,7 @@ async fn the_rest_of_a_pass_is_taken_once_the_clock_of_the_unit_is_right() {
     assert_eq!(of.cause, Some(MissCause::NotReady(NotReady::WouldMiss)));
 }
 
-/// The link breaks in the middle of a pass, and comes back after LOS.
+/// The link breaks in the middle of a pass and comes back after LOS.
 #[tokio::test(start_paused = true)]
 async fn after_an_outage_over_the_end_of_a_pass_the_next_ones_are_taken() {
     for resume in [Resume::Ask, Resume::Continue] {
@@ -827,8 +828,8 @@ async fn after_an_outage_over_the_end_of_a_pass_the_next_ones_are_taken() {
     }
 }
 
-/// An antenna before a pass, and how far the clock of this computer is ahead, seconds. The time
-/// service calls the clock synchronised.
+/// Starts an antenna before a pass. Returns it with the lead of this computer's clock, seconds,
+/// which the time service calls synchronised.
 async fn scene_by_a_clock_that_can_step(antenna: &str) -> (Scene, Arc<AtomicI64>) {
     let (begun, at) = (Instant::now(), before_a_pass());
     let ahead_s: Arc<AtomicI64> = Arc::default();
@@ -865,7 +866,7 @@ async fn a_unit_tracks_on_while_the_clock_of_this_computer_is_wrong() {
     }
 }
 
-/// A Genius in the middle of a pass: the clock is set and set back.
+/// The clock steps and steps back while a Genius tracks the middle of a pass.
 #[tokio::test(start_paused = true)]
 async fn a_track_goes_on_after_a_clock_step_if_a_time_service_keeps_the_clock() {
     for by_s in [-40, 40] {

@@ -1,4 +1,4 @@
-//! The clock of a unit is kept right between passes.
+//! Upkeep of a unit's clock between passes.
 
 use std::time::Duration;
 
@@ -18,7 +18,7 @@ use super::{
 };
 use crate::common::units::{measured, until};
 
-/// The dish some minutes before a pass, at a computer with a synchronised clock.
+/// Starts the dish some minutes before a pass, at a computer with a synchronised clock.
 async fn scene(sets_clock: bool, uses_auto_track: bool) -> (Scene, Client, AntennaId) {
     let (mut scene, client, id) = scene_of("Dish", |dish| {
         dish.upkeep.sets_clock = sets_clock;
@@ -35,7 +35,7 @@ async fn scene(sets_clock: bool, uses_auto_track: bool) -> (Scene, Client, Anten
     (scene, client, id)
 }
 
-/// Somebody sets the unit's clock wrong, after it has set its clock from GPS.
+/// Sets the unit's clock wrong from another program, after the unit has set its clock from GPS.
 async fn put_ahead(scene: &Scene, client: &Client, by_s: f64) {
     seconds(client, 10.0).await;
     let time = add_seconds(client.now().utc, by_s);
@@ -48,7 +48,7 @@ fn ahead_s(client: &Client) -> Option<f64> {
     Some(snapshot.antennas.first()?.snapshot.state.on_board.clock?.ahead_s)
 }
 
-/// The upkeep of the day.
+/// Returns the events of clock upkeep on this day.
 fn upkeep(client: &Client) -> Vec<DayEvent> {
     let day = client.snapshot().day.clone();
     let is_upkeep =
@@ -89,7 +89,7 @@ async fn a_clock_is_left_alone_without_the_rule_below_its_limit_and_without_auto
     }
 }
 
-/// A second is the width of the beam to a low satellite.
+/// In a second, a low satellite moves by the width of the beam.
 #[tokio::test(start_paused = true)]
 async fn a_clock_that_is_off_by_two_seconds_is_set_at_the_default_limit() {
     let (mut scene, client, id) = scene_of("Dish", |dish| dish.upkeep.sets_clock = true).await;
@@ -104,7 +104,7 @@ async fn a_clock_that_is_off_by_two_seconds_is_set_at_the_default_limit() {
     until("the right clock", || ahead_s(&client).filter(|ahead_s| ahead_s.abs() < 0.2)).await;
 }
 
-/// A unit with GPS would take the setting back.
+/// A unit with GPS would undo the setting.
 #[tokio::test(start_paused = true)]
 async fn a_clock_that_the_unit_sets_from_gps_is_left_alone() {
     let (scene, client, id) = scene(true, false).await;
@@ -143,7 +143,7 @@ async fn a_clock_is_not_set_during_a_pass_or_shortly_before_but_after_it() {
         until("the upkeep", || (!upkeep(&client).is_empty()).then_some(())).await;
         assert!(seconds_between(los, client.now().utc) < 120.0);
         assert!(matches!(upkeep(&client)[..], [DayEvent::ClockSet { .. }]));
-        // Once more within an hour would be a fight with somebody.
+        // Azel does not set the clock again within an hour, because somebody may keep setting it.
         put_ahead(&scene, &client, 8.0).await;
         until_seen_ahead(&client, 7.0).await;
         seconds(&client, 120.0).await;

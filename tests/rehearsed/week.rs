@@ -1,12 +1,11 @@
-//! A station with 60 satellites and three antennas that nobody touches: a power cut, an outage of each link, a
-//! clock step, failing sources, a unit clock that drifts, gusts and imperfect drives. An hour here, in which
-//! each fault weighs more;
+//! Station with 60 satellites and three antennas that nobody touches. Its faults are a power cut,
+//! an outage of each link, a clock step, failing sources, a drifting unit clock, gusts and
+//! imperfect drives. The test takes an hour, in which each fault weighs more. This command
+//! rehearses a week and prints the resident memory of each hour:
 //!
 //! ```text
 //! AZEL_SEED=1 AZEL_HOURS=168 cargo test --release --test azel rehearsed::week -- --nocapture
 //! ```
-//!
-//! rehearses a week and prints the resident memory of each hour.
 
 mod faults;
 mod ground_station;
@@ -29,19 +28,18 @@ use jiff::Timestamp;
 use self::{faults::Faults, ground_station::GroundStation, tally::Tally};
 use crate::common::units::{measured, until};
 
-/// Share of the promised time outside the faults that must be spent in beam.
+/// Min share of the promised time outside the faults that the antennas spend in beam.
 const MIN_SHARE: f64 = 0.995;
-/// Time after which the operator looks after an antenna whose automatic operation is not on.
+/// Time after which the operator looks after an antenna whose automatic operation is off, seconds.
 const OPERATOR_COMES_S: f64 = 900.0;
-/// Seconds until the station has its first plan and the links are up.
+/// Time until the station has its first plan and the links are up, seconds.
 const LEAD_S: f64 = 120.0;
-/// The same share in a short form, where the way back from each fault takes a larger part.
+/// Min share in the short form, where the recovery from each fault takes a larger part.
 const MIN_SHORT_SHARE: f64 = 0.8;
-/// Resident memory may grow by this share after the first day, in which logs and plans fill.
+/// Max growth of the resident memory after the first day, in which logs and plans fill, as a share.
 const MAX_GROWTH: f64 = 0.05;
-/// Hours of the long form. Other tests share the memory with the short one.
+/// Min length of the long form, hours. Other tests share the memory with the short form.
 const LONG_H: f64 = 72.0;
-/// Hours of a day.
 const DAY_H: usize = 24;
 
 fn begin() -> Timestamp {
@@ -84,12 +82,12 @@ struct Week {
     station: GroundStation,
     tally: Tally,
     operator: Operator,
-    /// Resident memory at the end of each hour.
+    /// Resident memory at the end of each hour, KiB.
     memory_kib: Vec<u64>,
 }
 
 impl Week {
-    /// The operator starts the station once.
+    /// Switches automatic operation on once, as the operator does.
     async fn switch_on(&mut self) {
         let client = self.station.client();
         for name in self.station.names() {
@@ -118,7 +116,7 @@ impl Week {
             }
         }
         self.run_until(to).await;
-        // Passes that have begun are tracked to their end.
+        // Azel tracks passes that have begun to their end.
         self.tally.take_no_more();
         let last = self.tally.last_end();
         self.run_until(add_seconds(last, 30.0)).await;
@@ -143,7 +141,7 @@ impl Week {
         }
     }
 
-    /// Prints the resident memory and its largest growth. Returns that after the first day.
+    /// Prints the resident memory and its largest growth. Returns the growth after the first day.
     fn print_memory(&self) -> f64 {
         let megabytes: Vec<u64> = self.memory_kib.iter().map(|kib| kib / 1024).collect();
         println!("resident memory at the end of each hour, MiB: {megabytes:?}");
@@ -165,10 +163,11 @@ fn resident_kib() -> u64 {
     line.trim().trim_end_matches("kB").trim().parse().unwrap_or_default()
 }
 
-/// Intervenes only where automatic operation does not come back: each time counts.
+/// Operator who intervenes only if automatic operation does not come back; the test counts each
+/// time.
 #[derive(Default)]
 struct Operator {
-    /// Antennas whose automatic operation is not on, since when and why.
+    /// Antennas whose automatic operation is off, with the time and the reason.
     idle: Vec<(AntennaId, Timestamp, Operation)>,
     touches: Vec<(AntennaId, Timestamp, Operation)>,
     /// Tracks that waited for an answer.
@@ -196,7 +195,7 @@ impl Operator {
                 self.idle.push((id, now, antenna.operation.clone()));
                 continue;
             };
-            // After a start it is off until the unit has rested.
+            // After a start, automatic operation is off until the unit has rested.
             let is_start = antenna.operation == Operation::Off(OffBecause::NotSwitchedOn);
             if is_start && seconds_between(*since, now) < OPERATOR_COMES_S {
                 continue;
@@ -209,7 +208,7 @@ impl Operator {
                     Command::SetAutomatic { antenna: id, is_on: true }
                 }
             };
-            // It is sent again if it was refused.
+            // The operator sends the command again if Azel refused it.
             let _ = client.send(command);
         }
     }

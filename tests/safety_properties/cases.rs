@@ -7,8 +7,8 @@ use crate::common::{
     turns::{self, Turns},
 };
 
-/// Runs `case` in paused time with successive seeds, `usual` times unless `AZEL_CASES`
-/// sets another number.
+/// Runs `case` in paused time with successive seeds, by default `usual` times. `AZEL_CASES` sets
+/// another number.
 pub(crate) fn for_each_case<Ran: Future<Output = ()>>(
     class: &str,
     usual: u64,

@@ -16,7 +16,7 @@ use crate::common::dice::Dice;
 
 const YEAR_S: f64 = 366.0 * 86_400.0;
 
-/// A step from a second to a year, of either sign, seconds.
+/// Draws a step from a second to a year, of either sign, seconds.
 fn any_step_s(dice: &mut Dice) -> i64 {
     let size_s = YEAR_S.powf(dice.between(0.0, 1.0)).round() as i64;
     if dice.chance(0.5) { size_s } else { -size_s }
@@ -49,7 +49,7 @@ async fn is_stepped(mut dice: Dice) {
     deed.go_on(&mut scene, &judge, 1.0).await;
     let is_step = |event: &Event| matches!(event, Event::Safety(Safety::ClockStepped { .. }));
     assert!(scene.told(stepped, is_step).is_some(), "not told: {judge}\n{}", scene.report());
-    // One more step while the operator is asked.
+    // The clock steps once more while Azel asks the operator.
     if dice.chance(0.3) {
         scene.clock.set(step_s + any_step_s(&mut dice));
     }

@@ -1,4 +1,4 @@
-//! A link that ends before, in or after anything that the session writes, and comes back later.
+//! Link that ends before, in or after any write of the session, and comes back later.
 
 use std::time::Duration;
 
@@ -18,10 +18,10 @@ use super::{
 };
 use crate::common::dice::Dice;
 
-/// Time that a new link takes to be dialled, to be read, and to carry STOP until the antenna
-/// stands, seconds.
+/// Time in which Azel dials a new link, reads the unit and sends STOP until the antenna stands,
+/// seconds.
 const BACK_S: f64 = 22.0;
-/// An outage after which Azel does not follow on without an answer, seconds.
+/// Outage after which Azel asks before it continues a track, seconds.
 const ASKS_AFTER_S: f64 = 6.0;
 
 fn cut(dice: &mut Dice) -> Cut {
@@ -59,7 +59,7 @@ async fn is_cut(mut dice: Dice) {
     // Bytes before the cut may still be on their way.
     scene.look().await;
     let lost = Instant::now();
-    // On a unit whose jogs run on only STOP ends one.
+    // On a unit whose jogs run on, only STOP ends a jog.
     judge.is_lost = deed.is_jog();
     deed.go_on(&mut scene, &judge, down_s).await;
     if presses_stop {
@@ -86,7 +86,7 @@ async fn is_cut(mut dice: Dice) {
     if matches!(deed, Deed::GoTo(..) | Deed::Park | Deed::OnBoard) {
         let words = scene.world.words_since(began);
         let moved = words.iter().filter(|(_, word)| *word == Word::Motion).count();
-        // A way may have two legs, and one more from a place beside its corner.
+        // The way may have two legs, and a third from a place beside its corner.
         assert!(moved <= 3 * make.words_of_a_go_to, "{judge}\n{words:?}\n{}", scene.report());
     }
     if is_asked && !presses_stop && asks(&scene, lost) {
@@ -97,7 +97,7 @@ async fn is_cut(mut dice: Dice) {
     deed.let_go(&scene);
     judge.is_lost = false;
     if scene.world.margin_clearance_deg() < 0.0 {
-        // It ran on into the keep-out without a link.
+        // Without a link, the jog ran on into the keep-out.
         judge.is_lost = true;
     }
     judge.stop(&mut scene, 12.0).await;

@@ -1,4 +1,4 @@
-//! Damaged or lost replies, from one in a hundred to every second one.
+//! Damaged or lost replies, at rates from one in a hundred to one in two.
 
 use std::time::Duration;
 
@@ -20,7 +20,7 @@ use crate::common::dice::Dice;
 /// Percentages of all replies that are damaged or lost.
 const RATES: [u32; 6] = [1, 2, 5, 10, 20, 50];
 
-/// Checks that the shown position is one the axes had since they were asked.
+/// Checks that the axes were at the shown position at some time since the question.
 fn assert_true(scene: &Scene, case: &str) {
     let Some(look) = scene.shown().state.measured else { return };
     let age_s = (Instant::now() - look.requested).as_secs_f64();
@@ -65,7 +65,7 @@ async fn damaged(mut dice: Dice, make: &Make, percent: u32) {
     };
     assert!(moved(&scene) <= make.words_of_a_go_to, "sent again: {case}\n{}", scene.report());
 
-    // A moving antenna is stopped, however bad the line is.
+    // Azel stops a moving antenna even on a bad line.
     scene.stop();
     let pressed = Instant::now();
     while scene.told(pressed, |event| matches!(event, Event::Stopped)).is_none() {
@@ -76,7 +76,7 @@ async fn damaged(mut dice: Dice, make: &Make, percent: u32) {
     assert!(!scene.world.unit.is_turning(), "stopped while it turns: {case}\n{}", scene.report());
     assert!(moved(&scene) <= make.words_of_a_go_to, "sent after STOP: {case}\n{}", scene.report());
 
-    // A good line is shown as such again, and by then nothing has begun to move.
+    // On a good line, Azel shows the link as up again, and nothing has begun to move.
     scene.trouble(|line| (line.damaged, line.lost) = (0.0, 0.0));
     watched(&mut scene, 15.0, &case).await;
     let shown = scene.shown();

@@ -12,10 +12,10 @@ use azel::{
 use super::{judge::Judge, scene::Scene, world::World};
 use crate::common::dice::Dice;
 
-/// One motion that the operator asks for.
+/// Motion that the operator asks for.
 #[derive(Debug, Clone)]
 pub(super) enum Deed {
-    /// A jog key is held.
+    /// Jog with a held key, degrees a second.
     Jog([f64; 2]),
     GoTo(f64, f64),
     Park,
@@ -23,12 +23,12 @@ pub(super) enum Deed {
     Point(f64, f64),
     /// Program track of a satellite.
     Follow,
-    /// The unit tracks a satellite.
+    /// Track of a satellite by the unit.
     OnBoard,
 }
 
 impl Deed {
-    /// Any motion that the unit of `world` knows; a satellite is tracked where one is up.
+    /// Draws any motion that the unit of `world` knows. It tracks a satellite only if one is up.
     pub(super) fn any(dice: &mut Dice, world: &World) -> Self {
         let (az_deg, el_deg) = (dice.between(0.0, 360.0), dice.between(15.0, 80.0));
         match dice.below(if world.overflight.is_some() { 6 } else { 4 }) {
@@ -42,7 +42,7 @@ impl Deed {
         }
     }
 
-    /// A motion by hand, or to a position that no setting of a random world forbids.
+    /// Draws a motion by hand, or to a position that no setting of a random world forbids.
     pub(super) fn any_by_hand(dice: &mut Dice, world: &World) -> Self {
         match dice.below(3) {
             0 => Self::Jog(rates_to_the_middle(dice, world)),
@@ -55,7 +55,7 @@ impl Deed {
         matches!(self, Self::Jog(_))
     }
 
-    /// Azel sends one position after another.
+    /// Returns `true` if Azel sends one position after another.
     pub(super) fn is_program(&self) -> bool {
         matches!(self, Self::Point(..) | Self::Follow)
     }
@@ -90,7 +90,7 @@ impl Deed {
         }
     }
 
-    /// Lets time go on, with the key of a jog held.
+    /// Lets time pass, with the key of a jog held.
     pub(super) async fn go_on(&self, scene: &mut Scene, judge: &Judge, seconds: f64) {
         let end = Instant::now() + Duration::try_from_secs_f64(seconds).unwrap();
         let mut is_renewed = false;
@@ -106,7 +106,7 @@ impl Deed {
         }
     }
 
-    /// The key comes up.
+    /// Releases the key of a jog.
     pub(super) fn let_go(&self, scene: &Scene) {
         if self.is_jog() {
             scene.send(Command::EndJog);
@@ -114,7 +114,8 @@ impl Deed {
     }
 }
 
-/// Rates of a jog that leads into a keep-out unless something stops it; any jog if there is none.
+/// Draws rates of a jog that leads into a keep-out unless something stops it. Draws any jog if none
+/// leads there.
 pub(super) fn rates_into_a_zone(dice: &mut Dice, world: &World) -> [f64; 2] {
     let axes_deg = world.unit.axes_deg();
     let ways = [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)];
@@ -139,7 +140,7 @@ pub(super) fn rates_into_a_zone(dice: &mut Dice, world: &World) -> [f64; 2] {
     rates_deg_s
 }
 
-/// Rates of a jog of one axis away from the nearer end of its travel.
+/// Draws rates of a jog of one axis away from the nearer end of its travel.
 fn rates_to_the_middle(dice: &mut Dice, world: &World) -> [f64; 2] {
     let travel_deg = world.antenna.mount.travel_deg();
     let mut rates_deg_s = any_rates(dice, world);
@@ -150,7 +151,7 @@ fn rates_to_the_middle(dice: &mut Dice, world: &World) -> [f64; 2] {
     rates_deg_s
 }
 
-/// Rates of a jog of one axis, degrees a second.
+/// Draws rates of a jog of one axis, degrees a second.
 fn any_rates(dice: &mut Dice, world: &World) -> [f64; 2] {
     let share = if world.has_one_speed() { 1.0 } else { dice.between(0.3, 1.0) };
     let way = if dice.chance(0.5) { 1.0 } else { -1.0 };

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::common::dice::Dice;
 
-/// Time within which a motion ends whose angles froze, seconds.
+/// Returns the max time until a motion with frozen angles ends, seconds.
 fn ends_within_s(deed: &Deed) -> u32 {
     match deed {
         Deed::Jog(_) => 6,
@@ -20,7 +20,7 @@ fn ends_within_s(deed: &Deed) -> u32 {
     }
 }
 
-/// How far the shown angles are behind the true ones, degrees.
+/// Returns the lag of the shown angles behind the true ones, degrees.
 fn behind_deg(scene: &Scene) -> f64 {
     let shown = scene.shown().state.measured;
     let axes = shown.into_iter().flat_map(|look| look.axes).zip(scene.world.unit.axes_deg());
@@ -30,8 +30,8 @@ fn behind_deg(scene: &Scene) -> f64 {
     off_deg.map(f64::abs).fold(0.0, f64::max)
 }
 
-/// Angles that are behind by less show nothing, degrees: the antenna may stand, or the unit ignores
-/// the way.
+/// Returns the lag below which frozen angles show nothing, degrees: the antenna may stand, or the
+/// unit ignores the way.
 fn hidden_deg(scene: &Scene) -> f64 {
     scene.world.make.ignores_deg.max(scene.world.coarse_deg)
 }
@@ -51,7 +51,7 @@ async fn freezes(mut dice: Dice) {
     deed.begin(&mut scene, &mut judge).await;
     deed.go_on(&mut scene, &judge, before_s).await;
     scene.world.unit.tell(Lie::FrozenAngles);
-    // Only a jog is led by the angles alone.
+    // Only a jog relies on the angles alone.
     judge.is_lost = deed.is_jog();
     let mut shows_s = 0.0;
     for _ in 0..ends_within_s(&deed) {
@@ -59,7 +59,7 @@ async fn freezes(mut dice: Dice) {
         let is_hidden = behind_deg(&scene) < hidden_deg(&scene);
         shows_s = if is_hidden { 0.0 } else { shows_s + 1.0 };
     }
-    // A unit begins to turn to a position late.
+    // A unit may begin late to turn to a position.
     let shows_within_s = if deed.is_jog() { 0.0 } else { 8.0 };
     for _ in 0..60 {
         deed.go_on(&mut scene, &judge, 0.05).await;

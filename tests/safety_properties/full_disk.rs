@@ -1,4 +1,4 @@
-//! A folder of marks that cannot be written, from the start or from a random moment on.
+//! Folder of marks that cannot be written, from the start or from a random moment on.
 
 use std::{fs, path::Path};
 
@@ -14,7 +14,7 @@ use super::{
 };
 use crate::common::dice::Dice;
 
-/// A file takes the place of the folder, so that nothing can be written there.
+/// Puts a file in the place of the folder, so that every write fails.
 fn fill(folder: &Path) {
     drop(fs::remove_dir_all(folder));
     fs::write(folder, "").unwrap();
@@ -41,7 +41,7 @@ async fn is_full(mut dice: Dice) {
     if !at_the_start {
         fill(&folder);
     }
-    // An unreadable mark counts as one of unknown age.
+    // An unreadable mark counts as a mark of unknown age.
     scene.send(Command::SeenStanding);
     scene.seconds(0.5).await;
     let mut judge = Judge::new(&scene, String::new());

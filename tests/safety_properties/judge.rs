@@ -1,4 +1,4 @@
-//! Judges a case by where the metal is and by what the unit received.
+//! Judge of a case, by the true positions of the axes and the requests that the unit received.
 
 use std::time::Duration;
 
@@ -6,20 +6,20 @@ use azel::{clock::Instant, contract::driver::Safety};
 
 use super::{scene::Scene, unit::Word};
 
-/// Readings of the clock in a second of a session that waits for something in between.
+/// Max clock readings per second of a session that waits between them.
 const MAX_READINGS_PER_S: f64 = 20_000.0;
 
-/// Time within which what a session has written reaches the unit.
+/// Max time from a write of the session to its arrival at the unit.
 const ON_THE_WAY: Duration = Duration::from_millis(100);
 
-/// Judge of one case.
+/// Judge of one case, with its current expectations.
 pub(super) struct Judge {
     pub(super) case: String,
     began: Instant,
     readings: u64,
-    /// No order to move may arrive after that.
+    /// Time after which no order to move may arrive.
     quiet_since: Option<Instant>,
-    /// The angles lie, or the link is down in a jog that only the unit could end.
+    /// `true` if the angles lie, or if the link is down in a jog that only the unit could end.
     pub(super) is_lost: bool,
 }
 
@@ -29,17 +29,17 @@ impl Judge {
         Self { case, began, readings, quiet_since: None, is_lost: false }
     }
 
-    /// The operator asks for a motion.
+    /// Allows motions, because the operator asks for one.
     pub(super) fn allow(&mut self) {
         self.quiet_since = None;
     }
 
-    /// From now on nobody asks for a motion.
+    /// Forbids motions from now on.
     pub(super) fn forbid(&mut self) {
         self.quiet_since.get_or_insert(Instant::now());
     }
 
-    /// Looks at the metal.
+    /// Checks that the session runs and that the antenna is outside of all keep-outs.
     pub(super) fn look(&self, scene: &Scene) {
         assert!(!scene.has_ended(), "the session broke down: {self}\n{}", scene.report());
         if self.is_lost {
@@ -54,7 +54,7 @@ impl Judge {
         );
     }
 
-    /// Looks at what the unit has received since the operator last asked for a motion.
+    /// Checks that the unit has received no motion since the operator last asked for one.
     pub(super) fn hear(&self, scene: &Scene) {
         let Some(since) = self.quiet_since else { return };
         let words = scene.world.words_since(since + ON_THE_WAY);
@@ -62,7 +62,8 @@ impl Judge {
         assert!(moved.is_none(), "moved by itself: {self}\n{words:?}\n{}", scene.report());
     }
 
-    /// Looks whether the session spins.
+    /// Checks at the end of a case that the session neither moves the antenna nor spins nor broke
+    /// down.
     pub(super) fn end(&self, scene: &Scene) {
         self.hear(scene);
         let lasted_s = (Instant::now() - self.began).as_secs_f64() + 1.0;
@@ -74,8 +75,8 @@ impl Judge {
         assert!(broke.is_none(), "the session broke down: {self}");
     }
 
-    /// The operator presses STOP: it is the first order that the unit receives, nothing moves any
-    /// more, and the antenna stands within `within_s`. The line is good.
+    /// Presses STOP on a good line. STOP must be the first order that the unit receives, nothing
+    /// may move afterwards, and the antenna must stand within `within_s`.
     pub(super) async fn stop(&mut self, scene: &mut Scene, within_s: f64) {
         let pressed = Instant::now();
         scene.stop();
@@ -83,7 +84,8 @@ impl Judge {
         self.stands(scene, pressed, within_s).await;
     }
 
-    /// The antenna comes to stand, and the first order since `since` is STOP.
+    /// Checks that the antenna stands within `within_s`, and that the first order since `since` is
+    /// STOP.
     pub(super) async fn stands(&mut self, scene: &mut Scene, since: Instant, within_s: f64) {
         let end = Instant::now() + Duration::try_from_secs_f64(within_s).unwrap();
         while Instant::now() < end {

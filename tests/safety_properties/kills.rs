@@ -1,4 +1,4 @@
-//! Sessions that are killed at any moment, and new ones that find their marks and the unit.
+//! Sessions that are killed at any moment, and new sessions that find their marks and the unit.
 
 use std::time::Duration;
 
@@ -18,7 +18,7 @@ use super::{
 };
 use crate::common::dice::Dice;
 
-/// Time after which a STOP that was pressed and not proved is on disk.
+/// Max time until a pressed and unproved STOP is on disk.
 const ON_DISK: Duration = Duration::from_millis(600);
 
 async fn is_killed(mut dice: Dice) {
@@ -37,7 +37,7 @@ async fn is_killed(mut dice: Dice) {
             scene.until_placed().await;
         }
         let (before_s, down_s) = (dice.between(0.0, 8.0), dice.between(0.6, 20.0));
-        // A STOP that the unit does not obey is owed when the session is killed.
+        // If the unit ignores STOP, Azel owes it when the session is killed.
         let owes = dice.chance(0.4);
         judge.case =
             format!("{} {deed:?} killed after {before_s} for {down_s} owes {owes}", make.name);
@@ -46,13 +46,13 @@ async fn is_killed(mut dice: Dice) {
         let was_held = deed.is_jog() && scene.shown().jog.is_some();
         if owes {
             scene.trouble(|line| line.ignores_stop = true);
-            // Nothing but STOP ends a jog of which the bytes of the end are lost.
+            // Only STOP ends a jog whose last bytes are lost.
             judge.is_lost = deed.is_jog();
             scene.stop();
             scene.seconds(ON_DISK.as_secs_f64() + dice.between(0.0, 1.0)).await;
         }
         let is_owed = owes && scene.shown().runs_out;
-        // At the end of its travel it stands without STOP.
+        // At the end of its travel, the axis stands without STOP.
         let runs_on = was_held && make.jogs_run_on && scene.world.unit.is_turning();
         judge.is_lost = deed.is_jog() || judge.is_lost;
         judge.forbid();

@@ -24,11 +24,11 @@ async fn scene(dice: &mut Dice, others_jog: bool) -> Scene {
     Scene::start(world, dice).await
 }
 
-/// Rate below which a motion of a Satrak may hide between two looks that prove standstill,
-/// in the tenths of a degree that it reports.
+/// Rate below which two looks that prove standstill may miss a motion of a Satrak, degrees a
+/// second. A Satrak reports tenths of a degree.
 const SLOWEST_DEG_S: f64 = 0.5;
 
-/// Direction of an axis with the longer travel ahead.
+/// Returns the direction of an axis with the longer travel ahead.
 fn long_way(scene: &Scene, axis: usize) -> f64 {
     let (from_deg, to_deg) = scene.world.antenna.mount.travel_deg()[axis];
     let at_deg = scene.world.unit.axes_deg()[axis];
@@ -87,9 +87,9 @@ fn is_contradiction(event: &Event) -> bool {
     matches!(event, Event::Safety(Safety::FlagsContradict { .. }))
 }
 
-/// When a jog whose angles froze is stopped at the latest.
+/// Max time until Azel stops a jog whose angles froze.
 const JOG_ENDS_WITHIN: Duration = Duration::from_secs(6);
-/// The same for a motion to a position.
+/// Max time until Azel stops a motion to a position whose angles froze.
 const GO_TO_ENDS_WITHIN: Duration = Duration::from_secs(10);
 
 fn is_without_effect(event: &Event) -> bool {
@@ -107,7 +107,7 @@ async fn angles_freeze(mut dice: Dice) {
     scene.send(Command::Manual);
     scene.seconds(2.0).await;
     let began = Instant::now();
-    // Before the jog, or in the middle of it.
+    // The angles freeze before the jog or in the middle of it.
     let freezes_at = began + Duration::try_from_secs_f64(dice.between(-1.0, 3.0).max(0.0)).unwrap();
     let mut frozen = None;
     while frozen.is_none_or(|at| Instant::now() < at + JOG_ENDS_WITHIN) {
@@ -120,7 +120,7 @@ async fn angles_freeze(mut dice: Dice) {
     }
     let case = format!("{rates_deg_s:?} {:?}", freezes_at - began);
     let told = scene.told(began, is_without_effect).is_some();
-    // A jog that a barrier or a limit ended moves nothing either.
+    // A jog that a barrier or a limit ended also moves nothing.
     let is_refused = scene.told(began, |event| matches!(event, Event::NotSent(_))).is_some();
     assert!(told || is_refused, "not told: {case}\n{}", scene.report());
     scene.seconds(3.0).await;
@@ -151,7 +151,7 @@ async fn angles_freeze_on_the_way(mut dice: Dice) {
     assert!(!scene.world.unit.is_turning(), "turns on: {azimuth:?}\n{}", scene.report());
 }
 
-/// The drives of two rotators were exchanged: a motion of one axis turns the other one.
+/// Checks a pair of rotators with exchanged drives: a motion of one axis turns the other one.
 async fn drives_are_crossed(mut dice: Dice) {
     let mut rig = rig::Rig::connected(&rig::pair(), Rotators::Pair).await;
     rig.control.set_fault(Fault::CrossedDrives, true);
@@ -169,7 +169,7 @@ async fn drives_are_crossed(mut dice: Dice) {
         rig.until_event(GO_TO_ENDS_WITHIN.as_secs(), is_found).await;
     } else {
         let mut rates_deg_s = [0.0; 2];
-        // Up from the horizon.
+        // The elevation jogs up from the horizon.
         rates_deg_s[usize::from(axes != 0)] = 5.0;
         rig.send(Command::Manual);
         let mut is_told = false;

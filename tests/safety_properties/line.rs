@@ -20,20 +20,21 @@ use crate::common::dice::Dice;
 pub(super) struct Line {
     pub(super) late_ms: f64,
     pub(super) lost: f64,
-    /// The next reply is lost.
+    /// `true` if the line loses the next reply.
     pub(super) loses_next: bool,
-    /// The next reading of the position is lost.
+    /// `true` if the line loses the next reading of the position.
     pub(super) loses_next_reading: bool,
     pub(super) doubled: f64,
     pub(super) damaged: f64,
     pub(super) is_split: bool,
-    /// Replies carry no checksum: a changed figure would be a true one of elsewhere.
+    /// `true` if replies carry no checksum, so that a changed figure looks like a position
+    /// elsewhere.
     pub(super) is_unchecked: bool,
-    /// Bytes written by the session are lost.
+    /// `true` if the line loses bytes written by the session.
     pub(super) is_deaf: bool,
-    /// Bytes written by the unit are lost.
+    /// `true` if the line loses bytes written by the unit.
     pub(super) is_mute: bool,
-    /// A STOP never gets through.
+    /// `true` if no STOP gets through.
     pub(super) ignores_stop: bool,
     /// Axes whose angle is missing in every reply, and the text in its place.
     pub(super) blank: [bool; 2],
@@ -41,23 +42,23 @@ pub(super) struct Line {
     /// Share of the replies whose other figures are wrong.
     pub(super) falsified: f64,
     pub(super) cut: Option<Cut>,
-    /// The cut has been made.
+    /// `true` once the cut was made.
     pub(super) was_cut: bool,
 }
 
-/// End of a link at something that the session writes.
+/// End of a link at a write of the session.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cut {
-    /// Number of writes that get through before it.
+    /// Number of writes that get through before the cut.
     pub(super) after: usize,
-    /// Only orders count, not questions.
+    /// `true` to count only orders, not questions.
     pub(super) at_order: bool,
     /// Share of the bytes that still get through: 0 before the write, 1 after it.
     pub(super) share: f64,
 }
 
 impl Line {
-    /// Bytes that still get through if the link ends at this write.
+    /// Returns the number of bytes that still get through if the link ends at this write.
     fn cut_at(&mut self, bytes: &[u8], unit: &dyn Unit) -> Option<usize> {
         let cut = self.cut.as_mut()?;
         if cut.at_order && !unit.holds_order(bytes) {

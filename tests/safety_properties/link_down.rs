@@ -1,4 +1,4 @@
-//! The link fails during a motion, or STOP is not obeyed.
+//! Links that fail during a motion, and STOPs that the unit ignores.
 
 use std::time::Duration;
 
@@ -19,15 +19,15 @@ use crate::common::dice::Dice;
 /// Failure of a link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Failure {
-    /// The link closes, and nobody answers for a while.
+    /// Closed link, without an answer for a while.
     Lost,
-    /// Commands are lost, and so no reply comes.
+    /// Lost commands, and so no replies.
     HalfOpen,
-    /// Commands are carried out, replies are lost.
+    /// Lost replies to commands that the unit carries out.
     Mute,
-    /// Nothing gets through either way, and the link stays open.
+    /// Open link that carries nothing either way.
     Stalled,
-    /// Everything but STOP gets through.
+    /// Open link that carries everything but STOP.
     IgnoresStop,
 }
 
@@ -49,7 +49,7 @@ fn is_silent(event: &Event) -> bool {
     matches!(event, Event::Safety(Safety::SilentInMotion))
 }
 
-/// Returns `true` if the event reports that a STOP may not have been obeyed.
+/// Returns `true` if the event reports that the unit may not have obeyed a STOP.
 fn is_alarm(event: &Event) -> bool {
     matches!(
         event,
@@ -59,15 +59,15 @@ fn is_alarm(event: &Event) -> bool {
     )
 }
 
-/// Time after which a reply is missing; at the line speed of an RC2000C its characters
-/// take the rest.
+/// Time after which a reply is missing. It includes the characters of a reply at the line speed of
+/// an RC2000C.
 const MISSING: Duration = Duration::from_millis(760);
-/// Time after the first missing reply within which the operator gets the warning.
+/// Max time from the first missing reply to the warning of the operator.
 const ALARM: Duration = Duration::from_secs(1);
 /// Time for which a jog of an RC2000C runs on at its rate: the last renewal, one more if
 /// commands still get through, and the overrun.
 const RUNS_ON_S: f64 = 2.0;
-/// Time within which an unproved STOP is sent again.
+/// Max time until Azel repeats an unproved STOP.
 const AGAIN: Duration = Duration::from_millis(1500);
 
 async fn fails(mut dice: Dice) {
@@ -101,7 +101,7 @@ async fn fails(mut dice: Dice) {
     if !scene.world.unit.is_turning() {
         return;
     }
-    // The session stops an axis at the end of its travel in the same moment.
+    // The session has just stopped an axis at the end of its travel.
     if is_jog && scene.shown().jog.is_none() {
         return;
     }
@@ -120,7 +120,7 @@ async fn fails(mut dice: Dice) {
         scene.seconds(0.1).await;
         was_shown |= Instant::now() <= failed + poll * 3 + ALARM
             && !matches!(scene.shown().link, LinkState::Up { .. });
-        // The way of a motion to a position was judged before it began.
+        // Azel judged the way of a motion to a position before the motion began.
         if !is_jog {
             let zone_deg = scene.world.zone_clearance_deg();
             assert!(zone_deg >= 0.0, "{} inside a zone: {case}\n{}", -zone_deg, scene.report());
@@ -128,7 +128,7 @@ async fn fails(mut dice: Dice) {
     }
     scene.send(Command::EndJog);
     assert!(was_shown, "shown as up: {case}\n{}", scene.report());
-    // The first missing reply was asked for within a poll period.
+    // Azel asked for the first missing reply within a poll period.
     let last = failed + poll + MISSING + ALARM + Duration::from_millis(100);
     let told = scene.told(failed, is_silent);
     assert!(
@@ -154,8 +154,8 @@ async fn fails(mut dice: Dice) {
     assert!(!scene.shown().silent, "still silent: {case}\n{}", scene.report());
     let words = scene.world.words_since(back);
     if !ends_by_itself && failure != Failure::Mute {
-        // Only questions may come before it on a link that heals by itself, and nothing on a new
-        // link. For an antenna at the end of its travel looks alone prove standstill.
+        // On a link that heals, only questions may precede the STOP; on a new link, nothing may.
+        // For an antenna at the end of its travel, looks alone prove standstill.
         let first = words.iter().find(|(_, word)| *word != Word::Question);
         let is_soon = first.map_or(!turned_on, |(at, word)| {
             let in_time = !turned_on || failure == Failure::Lost || *at <= back + AGAIN;
@@ -175,7 +175,7 @@ async fn fails(mut dice: Dice) {
     }
 }
 
-/// STOP is ignored while everything else works.
+/// Checks a STOP that the unit ignores while everything else works.
 async fn ignores_stop(scene: &mut Scene, case: &str) {
     let pressed = Instant::now();
     scene.stop();
@@ -193,8 +193,7 @@ async fn ignores_stop(scene: &mut Scene, case: &str) {
             scene.report()
         );
     }
-    // A standstill is reported as unproved after three seconds, or when its proof takes
-    // longer.
+    // Azel reports a standstill as unproved if its proof takes longer than three seconds.
     if was_turning >= pressed + Duration::from_millis(4500) {
         let told = scene.told(pressed, is_alarm);
         assert!(told.is_some(), "not told: {case}\n{}", scene.report());
@@ -214,7 +213,7 @@ async fn hold(scene: &mut Scene, rates_deg_s: [f64; 2], seconds: f64) {
     }
 }
 
-/// Late replies and a single lost one are no silence.
+/// Checks that late replies and a single lost reply are no silence.
 async fn answers_late(mut dice: Dice) {
     let wish = Wish::default();
     let world = World::random(&mut dice, &wish);

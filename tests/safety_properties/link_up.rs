@@ -1,4 +1,4 @@
-//! The link is up, STOP is obeyed and the angles are true.
+//! Sessions over a good link: the unit obeys STOP, and its angles are true.
 
 use std::time::Duration;
 
@@ -156,7 +156,7 @@ async fn drives(mut dice: Dice) {
     watched(&mut scene, 4.0, &deeds).await;
 }
 
-/// Distance of a motion by others from the look before it began to standstill.
+/// Returns the max turn of a motion by others from the last look before it to standstill, degrees.
 pub(super) fn room_deg(world: &World) -> f64 {
     const POLL_AND_REPLY_S: f64 = 0.6;
     const RUN_OUT_S: f64 = 1.0;
@@ -184,12 +184,12 @@ async fn others_move(mut dice: Dice) {
     }
 }
 
-/// Width below which a gap is no way out.
+/// Width below which a gap is no way out, degrees.
 const GAP_DEG: f64 = 1.0;
 
-/// Degrees by which an axis turns one way until the true direction is free, searched in
-/// small steps. `None` if the floor, the end of the travel or another zone comes first, or
-/// follows within `gap_deg`.
+/// Returns the degrees by which an axis turns one way until the true direction is free, searched in
+/// small steps. `None` if the floor, the end of the travel or another zone comes first, or follows
+/// within `gap_deg`.
 fn turn_out_deg(
     scene: &Scene,
     axes_deg: [f64; 2],
@@ -214,7 +214,7 @@ fn turn_out_deg(
             return None;
         }
         if here_deg.iter().all(|clear_deg| *clear_deg >= 0.0) {
-            // A narrow gap is refused because jogs are judged ahead.
+            // Azel refuses a narrow gap, because it judges jogs ahead.
             there_deg[axis] += way * gap_deg;
             let is_wide = clear_deg(there_deg).iter().all(|clear_deg| *clear_deg >= 0.0)
                 && (from_deg..=to_deg).contains(&there_deg[axis]);
@@ -224,8 +224,8 @@ fn turn_out_deg(
     None
 }
 
-/// Distance in the sky to the nearest permitted direction by the shortest turn of one
-/// axis, with that axis and its direction.
+/// Returns the distance in the sky to the nearest permitted direction by the shortest turn of one
+/// axis, degrees, with that axis and its direction.
 fn way_out(scene: &Scene, axes_deg: [f64; 2], gap_deg: f64) -> Option<(f64, usize, f64)> {
     let bounds = &scene.world.bounds;
     let ways = [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)];
@@ -240,9 +240,9 @@ fn way_out(scene: &Scene, axes_deg: [f64; 2], gap_deg: f64) -> Option<(f64, usiz
 }
 
 /// Returns `true` if a jog along the shortest way is free as far as Azel judges it ahead. For a
-/// unit with one speed, that may reach beyond the far side of the zone.
+/// unit with one speed, this stretch may reach beyond the far side of the zone.
 fn is_way_wide(scene: &Scene, (_, axis, way): (f64, usize, f64), rate_deg_s: f64) -> bool {
-    /// Longer than a jog is judged ahead.
+    /// Time that exceeds Azel's judgement of a jog ahead, seconds.
     const AHEAD_S: f64 = 2.5;
     let World { bounds, antenna, utc_origin, unit, .. } = &scene.world;
     let has_one_speed = scene.world.has_one_speed();
@@ -286,7 +286,7 @@ async fn starts_inside(mut dice: Dice) {
             scene.send(Command::EndJog);
             scene.seconds(5.0).await;
             let to_deg = scene.world.unit.axes_deg();
-            // The measured direction differs from the true one: a gap may look wider.
+            // The measured direction differs from the true one, so a gap may look wider.
             let after = way_out(&scene, to_deg, GAP_DEG - 0.1);
             let turned_deg = (to_deg[axis] - from_deg[axis]).abs();
             if before.is_some_and(|(length_deg, ..)| length_deg == 0.0) {
@@ -298,7 +298,7 @@ async fn starts_inside(mut dice: Dice) {
                 Some(((before_deg, ..), (after_deg, ..))) => {
                     assert!(after_deg <= before_deg + coarse_deg, "deeper: {}", case());
                 }
-                // No axis gets out by itself.
+                // No single axis leads out.
                 None => assert!(
                     scene.world.zone_clearance_deg() >= before_zone_deg - coarse_deg,
                     "deeper: {}",

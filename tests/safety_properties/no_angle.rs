@@ -70,7 +70,7 @@ fn any_axis_without_an_angle_enters_no_keep_out() {
     for_each_case("an angle is missing", 10, loses_an_angle);
 }
 
-/// The elevation goes missing on a short way, so nobody can know where it has led.
+/// Checks an elevation that goes missing on a short way: Azel must not report an arrival.
 async fn loses_its_elevation_on_the_way(mut dice: Dice) {
     let mut scene = Scene::start(World::random(&mut dice, &Wish::default()), &mut dice).await;
     let AzEl { azimuth, elevation } = scene.world.direction();
@@ -78,7 +78,7 @@ async fn loses_its_elevation_on_the_way(mut dice: Dice) {
     scene.send(Command::Position { azimuth: Some(azimuth), elevation: Some(elevation) });
     scene.seconds(0.5).await;
     scene.trouble(|line| line.blank = [false, true]);
-    // An angle that is missing for a moment counts as the last one.
+    // Azel keeps the last value of a missing angle for a moment.
     scene.seconds(1.7).await;
     let missing = Instant::now();
     scene.seconds(60.0).await;
@@ -92,7 +92,8 @@ fn a_go_to_without_an_elevation_is_not_said_to_arrive() {
     for_each_case("the elevation is missing", 10, loses_its_elevation_on_the_way);
 }
 
-/// Every turn of the session is measured: one thread serves all antennas of a station.
+/// Checks STOP without any angle. The scene measures every turn of the session, because one thread
+/// serves all antennas of a station.
 async fn loses_both_angles(mut dice: Dice) {
     let world = World::random(&mut dice, &Wish { keep_outs: 5, ..Wish::default() });
     let first = Line { blank: [true; 2], ..Line::default() };

@@ -1,10 +1,11 @@
-//! Ordinary hours without a fault: every stop, refusal and alarm in them is a false one.
+//! Ordinary hours without a fault, in which every stop, refusal and alarm is false.
 //!
 //! ```text
 //! AZEL_CASES=5000 cargo test --release --test azel -- --nocapture quiet
 //! ```
 //!
-//! Prints the number of false ones and the simulated hours of one antenna, of each kind of run.
+//! The tests print the number of false ones and the simulated hours of one antenna for each kind of
+//! run.
 
 use std::{cell::RefCell, collections::BTreeMap, rc::Rc, time::Duration};
 
@@ -29,19 +30,19 @@ use super::{
 };
 use crate::common::dice::Dice;
 
-/// Hours for which one false stop is accepted.
+/// Hours for which the test accepts one false stop.
 const HOURS_PER_FALSE_STOP: f64 = 1000.0;
 const LOOK: Duration = Duration::from_millis(500);
 
 /// Activity in an ordinary run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
-    /// It stands.
+    /// Antenna at rest.
     Rest,
-    /// Azel follows a satellite around its culmination.
+    /// Azel's track of a satellite around its culmination.
     Culmination,
     WholePass,
-    /// The unit tracks by itself.
+    /// Track by the unit.
     OnBoard,
     Geostationary,
     /// Go-tos, park and jogs, one after the other.
@@ -60,7 +61,8 @@ const KINDS: [Kind; 6] = [
 /// Hours and false stops of each kind.
 type Tally = Rc<RefCell<BTreeMap<(Kind, &'static str), (f64, Vec<String>)>>>;
 
-/// `near_deg`: a unit that stands no further from where it was sent has arrived.
+/// Returns `true` if the event must not occur without a fault. A unit within `near_deg` of its aim
+/// has arrived.
 fn is_false(event: &Event, near_deg: f64) -> bool {
     match event {
         Event::EndedShort { aim, position: at } => {
@@ -98,7 +100,7 @@ fn is_false(event: &Event, near_deg: f64) -> bool {
     }
 }
 
-/// The mount reaches every direction above the minimum elevation.
+/// Returns `true` if the mount reaches every direction above the minimum elevation.
 fn reaches_all(world: &World) -> bool {
     let [(first_from, first_to), (second_from, second_to)] = world.antenna.mount.travel_deg();
     match world.antenna.mount {
@@ -107,7 +109,7 @@ fn reaches_all(world: &World) -> bool {
     }
 }
 
-/// A world of any make, each as often as the others.
+/// Draws a world of any make, each with the same chance.
 fn world(dice: &mut Dice, kind: Kind) -> World {
     let make = if kind == Kind::OnBoard { "Satrak" } else { MAKES[dice.below(MAKES.len())].name };
     let is_high = kind == Kind::Culmination;
@@ -119,7 +121,7 @@ fn world(dice: &mut Dice, kind: Kind) -> World {
             ("Satrak", Mount::Xy { travel_from_deg, travel_to_deg, .. }) => {
                 (*travel_from_deg, *travel_to_deg) = (5.0, 175.0);
             }
-            // The unit takes no other azimuths.
+            // A Genius takes no other azimuths.
             ("Genius", Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. }) => {
                 (*azimuth_from_deg, *azimuth_to_deg) = (0.0, 360.0);
             }
@@ -224,7 +226,7 @@ async fn ordinary(mut dice: Dice, tally: Tally) {
     let mut wrong: Vec<String> = events.map(|(_, event)| format!("{event:?}")).collect();
     let stops =
         scene.world.words_since(began).iter().filter(|(_, word)| *word == Word::Stop).count();
-    // A jog ends with a STOP, and so does the pass of a unit that tracks by itself.
+    // A jog ends with a STOP, and so does a pass that the unit tracks.
     if wrong.is_empty() && stops > 0 && !matches!(kind, Kind::Moves | Kind::OnBoard) {
         wrong.push(format!("{stops} STOPs"));
     }
@@ -253,7 +255,7 @@ fn an_ordinary_day_has_no_false_stop() {
     assert!(number as f64 <= accepted, "{number} in {hours:.1} antenna-hours");
 }
 
-/// The reply to the first order is lost; a unit may take one order for each axis.
+/// Checks a track that loses the reply to its first order. A unit may take one order for each axis.
 async fn loses_its_first_reply(mut dice: Dice) {
     let world = world(&mut dice, Kind::Geostationary);
     let mut scene = Scene::start(world, &mut dice).await;

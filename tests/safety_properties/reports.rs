@@ -1,5 +1,4 @@
-//! Clocks, windows, elements, limits and settings that a unit reports wrong, with figures far
-//! beyond what makes sense.
+//! Clocks, windows, elements, limits and settings that a unit reports wrong, with absurd figures.
 
 use azel::contract::driver::Command;
 
@@ -17,7 +16,7 @@ use crate::common::dice::Dice;
 async fn reports(mut dice: Dice) {
     let wish = Wish {
         keep_outs: dice.below(3),
-        // A unit that tracks by itself goes by what is true of it, not by what it reports.
+        // A unit that tracks uses its true values, not the reported ones.
         min_margin_deg: room_deg,
         overflight: Overhead::Satellite,
         make: dice.chance(0.7).then_some("Satrak"),
@@ -37,7 +36,7 @@ async fn reports(mut dice: Dice) {
             let auto = [Command::AutoTrack(true), Command::TakeOver, Command::AutoTrack(false)];
             scene.send(auto[dice.below(3)].clone());
         }
-        // A track by the unit is stopped at the zone.
+        // Azel stops a track by the unit at the zone.
         judge.is_lost = matches!(deed, Deed::OnBoard);
         for _ in 0..10 {
             deed.go_on(&mut scene, &judge, dice.between(0.2, 3.0)).await;

@@ -25,7 +25,7 @@ async fn is_retargeted(mut dice: Dice) {
         let here = scene.world.direction();
         let (az_deg, el_deg) = (dice.between(0.0, 360.0), dice.between(15.0, 80.0));
         let any = AzEl::from_degrees(az_deg, el_deg);
-        // One axis may be where it has to be, on its way to somewhere else.
+        // The new target may keep one axis at its current position or at its previous target.
         at = match dice.below(4) {
             0 => AzEl { azimuth: here.azimuth, ..any },
             1 => AzEl { elevation: here.elevation, ..any },

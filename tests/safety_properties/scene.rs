@@ -24,10 +24,10 @@ use crate::common::{
     clock::TestClock, dice::Dice, network::Network, rig::indebted_session, turns::measured,
 };
 
-/// Interval of looks at the metal.
+/// Interval between two looks at the true positions.
 pub(super) const LOOK: Duration = Duration::from_millis(50);
 
-/// An operator in front of a session, and the metal.
+/// Operator in front of a session, and the simulated unit.
 pub(super) struct Scene {
     pub(super) world: World,
     pub(super) clock: TestClock,
@@ -40,19 +40,19 @@ pub(super) struct Scene {
     pub(super) line: Arc<Mutex<Line>>,
     network: Network,
     last_dial: Arc<Mutex<Option<Instant>>>,
-    /// All events, with the times at which they were seen.
+    /// All events, with the times at which the test saw them.
     pub(super) events: Vec<(Instant, Event)>,
 }
 
 impl Scene {
-    /// A session that has read its unit and knows its bounds.
+    /// Starts a session and waits until it has read its unit.
     pub(super) async fn start(world: World, dice: &mut Dice) -> Self {
         let mut scene = Self::begin(world, dice, None, Line::default());
         scene.until_read().await;
         scene
     }
 
-    /// A session that begins, with its marks in this folder, over a line with these troubles.
+    /// Starts a session with its marks in this folder, over a line with these troubles.
     pub(super) fn begin(
         world: World,
         dice: &mut Dice,
@@ -71,7 +71,7 @@ impl Scene {
         Self { world, clock, handle, session, marks, seed, line, network, last_dial, events }
     }
 
-    /// Waits until the unit has been read.
+    /// Waits until the session has read the unit.
     pub(super) async fn until_read(&mut self) {
         let end = Instant::now() + Duration::from_secs(20);
         while self.shown().state.measured.is_none() || self.shown().state.motion_lock.is_none() {
@@ -81,7 +81,7 @@ impl Scene {
         self.seconds(1.5).await;
     }
 
-    /// Waits until what the unit's own program goes by has been read.
+    /// Waits until the session has read the place, the clock and the offsets of the unit.
     pub(super) async fn until_placed(&mut self) {
         let end = Instant::now() + Duration::from_secs(90);
         let is_read = |shown: &Snapshot| {
@@ -94,7 +94,7 @@ impl Scene {
         }
     }
 
-    /// Ends the session at once, as when its process is killed. The unit goes on.
+    /// Ends the session at once, as the end of its process would. The unit keeps running.
     pub(super) async fn kill(&mut self) {
         self.session.abort();
         while !self.session.is_finished() {
@@ -103,7 +103,7 @@ impl Scene {
         self.world.unit.drop_clients();
     }
 
-    /// A new session of the same unit, as after a start of the program.
+    /// Starts a new session of the same unit, as a start of the program does.
     pub(super) fn restart(&mut self) {
         let ends = (&self.network, &self.line, &self.last_dial);
         self.seed = self.seed.wrapping_add(1);
@@ -116,12 +116,13 @@ impl Scene {
         self.line.lock().unwrap().was_cut
     }
 
-    /// Returns `true` if the session has ended, which it does only if it is killed or breaks down.
+    /// Returns `true` if the session has ended. A session ends only if a test kills it or it breaks
+    /// down.
     pub(super) fn has_ended(&self) -> bool {
         self.session.is_finished()
     }
 
-    /// Orbit by which the session judges the unit's own program.
+    /// Sets the orbit by which the session judges the unit's own program.
     pub(super) fn know_orbit(&self, orbit: Arc<KnownOrbit>) {
         self.handle.know_orbit(Some(orbit));
     }
@@ -131,7 +132,7 @@ impl Scene {
     }
 
     pub(super) fn send(&self, command: Command) {
-        // A session that is too busy says so; the operator would press again.
+        // Ignore the refusal by a busy session, because the operator would press again.
         drop(self.handle.send(command));
     }
 
@@ -151,7 +152,7 @@ impl Scene {
         }
     }
 
-    /// Dial of the last link that was opened.
+    /// Returns the time at which the last link was dialled.
     pub(super) fn last_dial(&self) -> Option<Instant> {
         *self.last_dial.lock().unwrap()
     }
@@ -162,7 +163,6 @@ impl Scene {
         self.collect();
     }
 
-    /// Collects the events.
     pub(super) fn collect(&mut self) {
         let now = Instant::now();
         while let Some(event) = self.handle.next_event() {
@@ -177,18 +177,18 @@ impl Scene {
         }
     }
 
-    /// Time of the first event since `since` for which `is_it` holds.
+    /// Returns the time of the first event since `since` that `is_it` accepts.
     pub(super) fn told(&self, since: Instant, is_it: impl Fn(&Event) -> bool) -> Option<Instant> {
         let mut events = self.events.iter().filter(|(at, _)| *at >= since);
         events.find(|(_, event)| is_it(event)).map(|(at, _)| *at)
     }
 
-    /// Number of events since `since` for which `is_it` holds.
+    /// Counts the events since `since` that `is_it` accepts.
     pub(super) fn count(&self, since: Instant, is_it: impl Fn(&Event) -> bool) -> usize {
         self.events.iter().filter(|(at, event)| *at >= since && is_it(event)).count()
     }
 
-    /// Distance of the true direction from the Sun's surroundings, degrees.
+    /// Returns the distance of the true direction from the Sun's surroundings, degrees.
     pub(super) fn sun_clearance_deg(&self) -> f64 {
         let utc = self.shown().state.measured.map_or(self.world.utc_origin, |it| it.time);
         let clearances = self.world.bounds.at_time(utc).clearances(self.world.direction());
@@ -219,7 +219,7 @@ impl Scene {
 
 type Ends<'a> = (&'a Network, &'a Arc<Mutex<Line>>, &'a Arc<Mutex<Option<Instant>>>);
 
-/// Starts a session that knows its bounds and wants a link.
+/// Starts a session that knows its bounds, and connects it.
 fn open(
     world: &World,
     ends: Ends<'_>,

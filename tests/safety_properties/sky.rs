@@ -16,13 +16,13 @@ use jiff::Timestamp;
 
 use crate::common::dice::Dice;
 
-/// Satellites on low orbits.
+/// Catalog numbers of satellites in low orbits.
 const NUMBERS: [u32; 4] = [43013, 25544, 37849, 25994];
-/// Days in which passes are searched for.
+/// Length of the pass search, days.
 const DAYS: f64 = 3.0;
-/// A lower pass is soon over.
+/// Min height of a pass, degrees; a lower pass is soon over.
 const MIN_HEIGHT_DEG: f64 = 30.0;
-/// Elevation of AOS and LOS: above the minimum elevation of every random antenna.
+/// Elevation of AOS and LOS, degrees: above the minimum elevation of every random antenna.
 const AOS_DEG: f64 = 16.0;
 
 static ELEMENTS: LazyLock<Vec<Elements>> = LazyLock::new(|| {
@@ -50,7 +50,7 @@ static OVERFLIGHTS: LazyLock<Vec<Overflight>> = LazyLock::new(|| {
     found.collect()
 });
 
-/// Satellites that the units know.
+/// Returns the satellites that the units know.
 pub(super) fn all_elements() -> &'static [Elements] {
     &ELEMENTS
 }
@@ -68,7 +68,7 @@ impl Overflight {
         &OVERFLIGHTS[dice.below(OVERFLIGHTS.len())]
     }
 
-    /// A time from a minute before the pass to its last third.
+    /// Draws a time between a minute before the pass and 60 % of it.
     pub(super) fn some_time(&self, dice: &mut Dice) -> Timestamp {
         let duration_s = seconds_between(self.aos, self.los);
         add_seconds(self.aos, dice.between(-60.0, duration_s * 0.6))

@@ -1,4 +1,4 @@
-//! Directions and keep-outs by formulas of their own: nothing here comes from the program.
+//! Directions and keep-outs by independent formulas: no code here comes from the program.
 
 use azel::station::Mount;
 use glam::DVec3;
@@ -6,14 +6,14 @@ use glam::DVec3;
 /// Distance between two points of an outline, degrees.
 const STEP_DEG: f64 = 0.5;
 
-/// Unit vector to the east, to the north and up.
+/// Returns the unit vector of a direction, with the components east, north and up.
 fn vector(az_deg: f64, el_deg: f64) -> DVec3 {
     let ((sin_az, cos_az), (sin_el, cos_el)) =
         (az_deg.to_radians().sin_cos(), el_deg.to_radians().sin_cos());
     DVec3::new(cos_el * sin_az, cos_el * cos_az, sin_el)
 }
 
-/// Direction in which the axes point at `axes_deg`, as the mount counts.
+/// Returns the direction in which the axes point at `axes_deg`, degrees as the mount counts.
 pub(super) fn direction(mount: &Mount, [first_deg, second_deg]: [f64; 2]) -> DVec3 {
     match *mount {
         Mount::AzEl { .. } => vector(first_deg, second_deg),
@@ -41,7 +41,8 @@ pub(super) struct Outline {
 }
 
 impl Outline {
-    /// Corners in azimuth and elevation, degrees: lower left, lower right, upper right, upper left.
+    /// Creates an outline from its corners in azimuth and elevation, degrees: lower left, lower
+    /// right, upper right, upper left.
     pub(super) fn new(corners_deg: [(f64, f64); 4]) -> Self {
         let [lower_left, lower_right, upper_right, upper_left] =
             corners_deg.map(|(az_deg, el_deg)| vector(az_deg, el_deg));
@@ -67,7 +68,7 @@ impl Outline {
         }
     }
 
-    /// Distance of a direction from the edge, degrees; negative inside.
+    /// Returns the distance of a direction from the edge, degrees; negative inside.
     pub(super) fn clearance_deg(&self, direction: DVec3) -> f64 {
         let nearest = self.points.iter().map(|point| point.dot(direction));
         let edge_deg = nearest.fold(-1.0, f64::max).clamp(-1.0, 1.0).acos().to_degrees();
@@ -80,7 +81,7 @@ impl Outline {
     }
 }
 
-/// Parts of a span, from its beginning to its end, 0 to 1.
+/// Returns parts of a span, from its beginning to its end, 0 to 1.
 fn shares(span_deg: f64) -> impl Iterator<Item = f64> {
     let parts = (span_deg.abs() / STEP_DEG).ceil().max(1.0) as u32;
     (0..=parts).map(move |part| f64::from(part) / f64::from(parts))

@@ -1,52 +1,53 @@
-//! A simulated unit of any make.
+//! Simulated unit of any make.
 
 use azel::{clock::Instant, driver::Stream};
 
 use crate::common::dice::Dice;
 
-/// A simulated unit.
+/// Simulated unit, as the tests judge and control it.
 pub(super) trait Unit: Send + Sync {
-    /// True positions of both axes, degrees as the mount counts.
+    /// Returns the true positions of both axes, degrees as the mount counts.
     fn axes_deg(&self) -> [f64; 2];
 
     fn is_turning(&self) -> bool;
 
-    /// Positions as the unit counts them, for axes placed there.
+    /// Returns the positions that the unit counts for axes placed at `axes_deg`.
     fn as_counted(&self, axes_deg: [f64; 2]) -> [f64; 2] {
         axes_deg
     }
 
-    /// Puts the axes there; returns `false` if they cannot stand there.
+    /// Puts the axes at `axes_deg`; returns `false` if they cannot stand there.
     fn place(&self, axes_deg: [f64; 2]) -> bool;
 
     fn tell(&self, lie: Lie);
 
-    /// From now on every reading is noisy by half of its last figure.
+    /// Adds noise of half of the last figure to every reading from now on.
     fn add_noise(&self);
 
-    /// Link that the unit serves.
+    /// Opens a link that the unit serves.
     fn link(&self) -> Box<dyn Stream>;
 
     /// Closes every link.
     fn drop_clients(&self);
 
-    /// Received commands, in order.
+    /// Returns the received commands, in order.
     fn words(&self) -> Vec<(Instant, Word)>;
 
-    /// Returns `true` if a STOP is among bytes that were written at once.
+    /// Returns `true` if the bytes of one write hold a STOP.
     fn holds_stop(&self, bytes: &[u8]) -> bool;
 
-    /// Returns `true` if bytes that were written at once are more than a question.
+    /// Returns `true` if the bytes of one write are more than a question.
     fn holds_order(&self, bytes: &[u8]) -> bool;
 
     /// Returns `true` if a reply reports the position and answers a question, not an order.
     fn is_reading(&self, reply: &[u8]) -> bool;
 
-    /// A reply with this text, one of several, in place of the angle of an axis; the reply itself
-    /// if it tells no angle.
+    /// Returns the reply with one of several texts in place of the angle of an axis, or the
+    /// unchanged reply if it has no angle.
     fn without_angle(&self, reply: &[u8], axis: usize, text: usize) -> Vec<u8>;
 
-    /// A reply with other figures in it, and a correct checksum; angles and flags of motion stay.
+    /// Returns the reply with other figures and a correct checksum. Angles and flags of motion
+    /// stay.
     fn falsified(&self, reply: &[u8], dice: &mut Dice) -> Vec<u8>;
 }
 
@@ -62,12 +63,12 @@ pub(super) enum Lie {
 pub(super) enum Word {
     Stop,
     Question,
-    /// Order to move metal.
+    /// Order to move the antenna.
     Motion,
     Other,
 }
 
-/// Returns `true` if a word is among bytes.
+/// Returns `true` if `bytes` contain `word`.
 pub(super) fn holds(bytes: &[u8], word: &[u8]) -> bool {
     bytes.windows(word.len()).any(|part| part == word)
 }

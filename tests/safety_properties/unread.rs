@@ -1,4 +1,4 @@
-//! Station files in which one entry that safety depends on is damaged.
+//! Station files with damage to one entry that safety depends on.
 
 use azel::{
     contract::driver::Command,
@@ -18,7 +18,7 @@ use super::{
 };
 use crate::common::dice::Dice;
 
-/// Values that no number, text or list of an entry can be.
+/// Draws a value that is invalid as a number, text or list of an entry.
 fn odd(dice: &mut Dice) -> Value {
     let nested = Value::Table(Table::from_iter([("a".to_owned(), Value::Integer(1))]));
     let values = [
@@ -28,14 +28,14 @@ fn odd(dice: &mut Dice) -> Value {
         Value::Float(-1e9),
         Value::Integer(i64::MAX),
         Value::Boolean(true),
-        // An empty list would be a list of keep-outs.
+        // An empty list would be a valid list of keep-outs.
         Value::Array(vec![Value::Integer(1)]),
         nested,
     ];
     values[dice.below(values.len())].clone()
 }
 
-/// The key with a typing error.
+/// Returns the key with a typing error.
 fn mistyped(dice: &mut Dice, key: &str) -> String {
     let mut letters: Vec<char> = key.chars().collect();
     let at = dice.below(letters.len() - 1);
@@ -48,7 +48,7 @@ fn mistyped(dice: &mut Dice, key: &str) -> String {
     letters.into_iter().collect()
 }
 
-/// Damages an entry of `table`, or its name. Returns what was done.
+/// Damages an entry of `table`, or its name. Returns a description of the damage.
 fn damage(dice: &mut Dice, table: &mut Table, keys: &[&str]) -> String {
     let key = keys[dice.below(keys.len())];
     let value = table.remove(key).unwrap_or_else(|| panic!("no {key} in {table}"));
@@ -71,7 +71,7 @@ fn inner<'a>(table: &'a mut Table, key: &str) -> &'a mut Table {
     }
 }
 
-/// Damages one entry that safety depends on. Returns what was done.
+/// Damages one entry that safety depends on. Returns a description of the damage.
 fn damage_one(dice: &mut Dice, station: &mut Table) -> String {
     match dice.below(6) {
         0 => damage(dice, station, &["keep_out", "sun_avoidance", "site"]),
@@ -86,7 +86,8 @@ fn damage_one(dice: &mut Dice, station: &mut Table) -> String {
     }
 }
 
-/// The world as its damaged station file is read, and the damage. `None` if the antenna is gone.
+/// Returns the world as Azel reads it from a damaged station file, and the damage. `None` if the
+/// antenna is gone.
 fn damaged(dice: &mut Dice, mut world: World) -> Option<(World, String)> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
@@ -117,7 +118,7 @@ async fn cannot_be_read(mut dice: Dice) {
     let Some((world, damage)) = damaged(&mut dice, world) else { return };
     let mut scene = Scene::start(world, &mut dice).await;
     let mut judge = Judge::new(&scene, damage);
-    // The mount may be what is damaged. Nothing moves before the operator's permission.
+    // The damage may concern the mount. Nothing moves before the operator's permission.
     judge.is_lost = true;
     let began = azel::clock::Instant::now();
     for _ in 0..3 {
@@ -129,7 +130,7 @@ async fn cannot_be_read(mut dice: Dice) {
     let words = scene.world.words_since(began);
     let moved = words.iter().any(|(_, word)| *word == Word::Motion);
     assert!(!moved, "moves: {judge}\n{words:?}\n{}", scene.report());
-    // By hand and by the operator's permission it moves slowly.
+    // With the operator's permission, the antenna moves slowly by hand.
     scene.send(Command::AllowWayOut);
     scene.send(Command::Manual);
     let axis = dice.below(2);

@@ -20,7 +20,7 @@ use super::{
 };
 use crate::common::dice::Dice;
 
-/// A station, its antenna, and its unit.
+/// Random station with its antenna, its unit and the true keep-outs.
 pub(super) struct World {
     pub(super) make: &'static Make,
     pub(super) unit: Arc<dyn Unit>,
@@ -43,12 +43,12 @@ pub(super) struct Wish {
     pub(super) keep_outs: usize,
     pub(super) min_margin_deg: fn(&World) -> f64,
     pub(super) has_sun: bool,
-    /// The axes stand inside a keep-out.
+    /// `true` for axes inside a keep-out.
     pub(super) starts_inside: bool,
-    /// Other clients can turn the axes.
+    /// `true` for a make whose axes other clients can turn.
     pub(super) others_jog: bool,
     pub(super) overflight: Overhead,
-    /// `None` for any make.
+    /// Name of the make; `None` for any make.
     pub(super) make: Option<&'static str>,
 }
 
@@ -77,7 +77,7 @@ impl Default for Wish {
 }
 
 impl World {
-    /// A random world, with its axes in a free direction, or inside a keep-out.
+    /// Draws a random world with its axes in a free direction, or inside a keep-out.
     pub(super) fn random(dice: &mut Dice, wish: &Wish) -> Self {
         let can = |make: &&Make| {
             (make.others_jog.is_some() || !wish.others_jog)
@@ -146,7 +146,8 @@ impl World {
         }
     }
 
-    /// Puts the axes somewhere; returns `false` if that does not fulfil the wish.
+    /// Puts the axes at a random position; returns `false` if the position does not fulfil the
+    /// wish.
     fn place(&self, dice: &mut Dice, inside: bool) -> bool {
         let axes_deg = self.antenna.mount.travel_deg().map(|(from_deg, to_deg)| {
             let away_deg = f64::min(5.0, (to_deg - from_deg) / 4.0);
@@ -166,7 +167,7 @@ impl World {
         above_deg >= 3.0 && is_wished && self.unit.place(axes_deg)
     }
 
-    /// Words that the unit has received since `from`, in order.
+    /// Returns the words that the unit has received since `from`, in order.
     pub(super) fn words_since(&self, from: Instant) -> Vec<(Instant, Word)> {
         self.unit.words().into_iter().filter(|(at, _)| *at >= from).collect()
     }
@@ -186,7 +187,7 @@ impl World {
         drop(near.read(&mut answer).await);
     }
 
-    /// Distance of the true direction from the nearest keep-out itself, degrees.
+    /// Returns the distance of the true direction from the nearest keep-out itself, degrees.
     pub(super) fn zone_clearance_deg(&self) -> f64 {
         let direction = self.direction();
         let zones = self.station.keep_outs.iter();
@@ -194,13 +195,13 @@ impl World {
         clear_deg.fold(f64::INFINITY, f64::min)
     }
 
-    /// Distance of the true direction from the margin of the nearest keep-out, degrees, by formulas
-    /// of the tests alone.
+    /// Returns the distance of the true direction from the margin of the nearest keep-out, degrees,
+    /// by formulas of the tests alone.
     pub(super) fn margin_clearance_deg(&self) -> f64 {
         self.margin_clearance_at_deg(self.unit.axes_deg())
     }
 
-    /// The same with the axes at `axes_deg`.
+    /// Returns [`Self::margin_clearance_deg`] for axes at `axes_deg`.
     pub(super) fn margin_clearance_at_deg(&self, axes_deg: [f64; 2]) -> f64 {
         let direction = truth::direction(&self.antenna.mount, axes_deg);
         let outlines = self.outlines.iter();
@@ -208,7 +209,7 @@ impl World {
         clear_deg.fold(f64::INFINITY, f64::min)
     }
 
-    /// Height of the true direction above the minimum elevation, degrees.
+    /// Returns the height of the true direction above the minimum elevation, degrees.
     pub(super) fn floor_clearance_deg(&self) -> f64 {
         self.direction().elevation_deg() - self.antenna.limits.minimum_elevation_deg
     }
@@ -217,7 +218,7 @@ impl World {
         self.bounds.direction(self.unit.axes_deg())
     }
 
-    /// Degrees by which an axis is beyond its travel.
+    /// Returns the degrees by which an axis is beyond its travel.
     pub(super) fn beyond_travel_deg(&self) -> f64 {
         let axes = self.unit.axes_deg().into_iter().zip(self.antenna.mount.travel_deg());
         let beyond_deg = |(angle_deg, (from_deg, to_deg)): (f64, (f64, f64))| {
@@ -237,7 +238,7 @@ fn some_time(dice: &mut Dice) -> Timestamp {
     time::add_seconds(noon, dice.between(0.0, 365.0).floor() * time::DAY_S)
 }
 
-/// A convex quadrilateral.
+/// Draws a keep-out in the form of a convex quadrilateral.
 fn keep_out(dice: &mut Dice, number: usize, margin_deg: f64) -> Option<(KeepOut, Outline)> {
     let (width_deg, height_deg) = (dice.between(5.0, 60.0), dice.between(5.0, 60.0));
     let (az_deg, el_deg) = (dice.between(0.0, 360.0), dice.between(-10.0, 60.0));

@@ -1,4 +1,4 @@
-//! Late or lost replies: none is taken for another, and no order is given twice.
+//! Late or lost replies: Azel takes none for another and gives no order twice.
 
 use azel::{
     astro::Angle,
@@ -21,7 +21,7 @@ fn goto() -> Command {
     }
 }
 
-/// A unit that loses the replies to `word` and reports `then` afterwards.
+/// Starts a unit that loses the replies to `word` and reports `then` afterwards.
 fn swallowing(word: &'static str, then: &'static str) -> Scripted {
     let mut is_swallowed = false;
     Scripted::start(Box::new(move |payload| match payload {
@@ -40,7 +40,7 @@ async fn a_goto_without_a_reply_that_moves_is_no_news() {
     unit.seconds(1.0).await;
     unit.events();
     unit.handle.send(goto()).unwrap();
-    // Later its angles, which do not change, would be reported.
+    // After a longer time, Azel would report the angles, which do not change.
     unit.seconds(4.0).await;
     assert_eq!(unit.sent("GOTO="), ["GOTO=,125.1,32.6"]);
     assert_eq!(unit.events(), []);
@@ -67,7 +67,7 @@ async fn a_goto_without_a_reply_that_does_not_move_is_told() {
 
 #[tokio::test(start_paused = true)]
 async fn a_step_without_a_reply_that_was_made_is_no_news() {
-    // Done within the time-out: the axis stands again, elsewhere.
+    // The unit makes the step within the timeout, so the axis already stands at its new position.
     let made = "STATUS?,0,299.49,34.35,0,0,0,0,0,0,0,0,0,0,82.0,35.0,0";
     let mut unit = swallowing("STEP=", made);
     unit.seconds(1.0).await;
@@ -99,7 +99,7 @@ async fn a_jog_without_a_reply_is_sent_once_and_stopped() {
     unit.events();
     unit.handle.send(Command::Manual).unwrap();
     let rates_deg_s = [1.0, 0.0];
-    // The position stays young meanwhile. The key stays down after the STOP.
+    // The position stays recent, and the key stays down after the STOP.
     for _ in 0..40 {
         unit.handle.send(Command::Jog { rates_deg_s }).unwrap();
         unit.seconds(0.1).await;
@@ -129,7 +129,7 @@ async fn a_setting_without_a_reply_is_not_sent_again() {
 
 #[tokio::test(start_paused = true)]
 async fn a_late_reply_is_not_taken_for_that_of_another_question() {
-    // The version comes so late that the question is given up each time.
+    // The version comes so late that Azel gives the question up each time.
     let mut unit = Scripted::start(Box::new(|payload| match payload {
         "VERSION?" => vec![(4300, "VERSION?,LATE,LATE".to_owned())],
         other => plain(other),
@@ -156,7 +156,7 @@ async fn a_late_refusal_of_a_goto_does_not_end_a_track_that_came_after() {
     unit.seconds(1.0).await;
     unit.events();
     unit.handle.send(goto()).unwrap();
-    // The reply is given up by then.
+    // Azel has given the reply up by now.
     unit.seconds(2.7).await;
     unit.handle.send(track(iss())).unwrap();
     unit.seconds(3.0).await;
@@ -168,7 +168,7 @@ async fn a_late_refusal_of_a_goto_does_not_end_a_track_that_came_after() {
     assert_eq!((shown.intent, unit.sent("TRACK=")), (Intent::Track, vec!["TRACK=,1".to_owned()]));
 }
 
-/// Answers of a unit that reads back the pass of the ISS.
+/// Returns the answers of a unit that reads back the pass of the ISS.
 fn with_pass() -> impl Fn(&str) -> Vec<(u64, String)> + Send {
     let window = {
         let text = |time| {

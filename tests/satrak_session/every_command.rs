@@ -1,5 +1,5 @@
-//! All 32 commands of the document, each through the session to the unit: the bytes are
-//! those of the document, and each command is shown as done.
+//! All 32 commands of the document, each sent through the session to the unit. The bytes are those
+//! of the document, and Azel shows each command as done.
 
 use azel::{
     astro::Angle,
@@ -14,7 +14,7 @@ use super::{
     settings::{change, read, text, write_settings},
 };
 
-/// Changes, with the payloads that the unit receives for them.
+/// Returns changes, with the payloads that the unit receives for them.
 fn settings() -> Vec<(Change, &'static str)> {
     let time = |at: &str| Value::Time(at.parse().unwrap());
     vec![

@@ -1,4 +1,4 @@
-//! The unit's list of faults: how old it may be when a motion starts.
+//! Max age of the unit's list of faults at the start of a motion.
 
 use azel::{
     astro::Angle,
@@ -25,7 +25,7 @@ fn go_to() -> Command {
     }
 }
 
-/// A unit with a warning, so that the fault flag cannot announce a second fault.
+/// Starts a unit with a warning, so that the fault flag cannot announce a second fault.
 async fn warned() -> Rig {
     let mut rig = Rig::usual().await;
     rig.control.set_fault(Fault::Unit(FaultKind::GpsLink), true);
@@ -45,7 +45,7 @@ async fn a_fault_that_joins_a_warning_locks_motion_within_two_seconds() {
         rig.control.set_fault(Fault::Unit(FaultKind::XMotor), true);
         rig.until("locked", 2, |shown| shown.state.motion_lock == Some(true)).await;
         rig.control.set_fault(Fault::Unit(FaultKind::XMotor), false);
-        // At another point of the interval each time.
+        // Each round meets another point of the interval.
         rig.seconds(2.3).await;
         assert_eq!(rig.shown().state.motion_lock, Some(false));
     }
@@ -80,8 +80,8 @@ async fn without_the_fault_flag_a_motion_waits_for_no_list() {
     assert_eq!(rig.sent("ERRSTATUS?").len(), before);
 }
 
-/// A unit with a warning that answers the first question for its faults, and no other. The second
-/// one is due a second after the first.
+/// Starts a unit with a warning that answers only the first question for its faults. The second
+/// question is due a second after the first.
 async fn answering_once() -> Scripted {
     let mut is_answered = false;
     let mut unit = Scripted::start(Box::new(move |payload| match payload {

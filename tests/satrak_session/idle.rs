@@ -1,5 +1,5 @@
-//! The session sleeps while there is nothing to do: time passes, and its loop turns only
-//! when something is due.
+//! Idle sessions: a session sleeps while it has nothing to do, and its loop turns only when a task
+//! is due.
 
 use std::time::Duration;
 
@@ -12,8 +12,8 @@ use tokio::time::timeout;
 
 use super::rig::{Rig, iss, track};
 
-/// Maximum of clock readings a second: a turn of the loop makes a few, and each question
-/// and each reply is a turn.
+/// Max clock readings a second: a turn of the loop makes a few, and each question and each reply is
+/// a turn.
 const READINGS_A_SECOND: u64 = 150;
 
 /// Lets time pass and checks how busy the session was.

@@ -14,11 +14,11 @@ use super::{
     scene::site,
 };
 
-/// A quarter of the fastest rate, the maximum on the way out.
+/// Max rate on the way out, degrees a second: a quarter of the fastest rate.
 const SLOW_DEG_S: f64 = 0.7;
 const SUN: SunAvoidance = SunAvoidance { radius_deg: 5.0, ahead_min: 10.0 };
 
-/// Late in a summer morning.
+/// Returns a time late in a summer morning.
 fn morning() -> Timestamp {
     "2026-08-12T07:30:00Z".parse().unwrap()
 }
@@ -31,7 +31,7 @@ fn within(station: &Station) -> Bounds {
     Bounds::new(station, &antenna())
 }
 
-/// A site with a mast in the antenna's direction, 10 degrees wide and high.
+/// Returns a station with a mast in the antenna's direction, 10 degrees wide and high.
 fn masted(at: AzEl) -> Station {
     let (az, el) = (at.azimuth_deg(), at.elevation_deg());
     let wide = 5.0 / at.elevation.radians().cos();
@@ -57,7 +57,7 @@ fn mast(may_leave: bool) -> Breach {
     Breach { barrier: Barrier::KeepOut("mast".into()), unknown_axis: None, may_leave }
 }
 
-/// In Manual, in the middle of a mast that has just been drawn.
+/// Starts an antenna in Manual, in the middle of a mast that was just drawn.
 async fn in_a_mast() -> Rig {
     let mut rig = Rig::connected(&Options::new(site(), morning()), &antenna()).await;
     rig.send(go_to(AzEl::from_degrees(200.0, 45.0)));
@@ -133,7 +133,7 @@ async fn the_word_for_the_way_out_ends_after_a_minute_and_outside() {
     assert_eq!(rig.shown().breach, Some(mast(false)), "it may leave, not enter again");
 }
 
-/// A unit that points at the Sun, and is then told to avoid it.
+/// Starts a unit that points at the Sun, and then adds the rule to avoid the Sun.
 async fn in_the_way_of_the_sun() -> Rig {
     let mut rig = Rig::connected(&Options::new(site(), morning()), &antenna()).await;
     rig.send(go_to(sun_moon::sun(site(), morning())));

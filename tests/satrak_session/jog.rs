@@ -1,4 +1,4 @@
-//! Jogging: press moves, release stops, and nothing outlives the key.
+//! Jogging: a key press moves the antenna, its release stops it, and no motion outlasts the key.
 
 use std::sync::{
     Arc,
@@ -49,7 +49,7 @@ async fn how_long_it_runs_on_is_learned_from_three_fast_jogs() {
     let fastest_deg_s = antenna().limits.maximum_rate_deg_s;
     let usual = rig.shown().stopping_way;
     let mut before = 0;
-    // A slow motion tells nothing about a fast one.
+    // Azel learns nothing about a fast motion from a slow one.
     for (share, stops) in [(0.2, 0), (0.9, 1), (-0.6, 2), (1.0, 3)] {
         assert_eq!(rig.shown().stopping_way, StoppingWay { stops: before, ..usual });
         before = stops;
@@ -60,7 +60,7 @@ async fn how_long_it_runs_on_is_learned_from_three_fast_jogs() {
     }
     let learned = rig.shown().stopping_way;
     assert!(learned.is_learned);
-    // Braking from the fastest rate at 5 degrees a second squared, and a look.
+    // The overrun is the braking from the fastest rate at 5 degrees a second squared, and a look.
     let braking_s = fastest_deg_s / 5.0 / 2.0;
     assert!((braking_s * 0.8..braking_s + 0.5).contains(&learned.overrun_s), "{learned:?}");
 }
@@ -69,7 +69,7 @@ async fn how_long_it_runs_on_is_learned_from_three_fast_jogs() {
 async fn a_lease_that_is_not_renewed_ends_the_jog() {
     let mut rig = in_manual().await;
     rig.hold([0.0, -1.5], 0.5).await;
-    // A lease goes by the steady clock.
+    // The lease of a jog uses the steady clock.
     rig.clock.set(-3600);
     rig.hold([0.0, -1.5], 0.5).await;
     let renewed = rig.times("MOVE=")[0];
@@ -77,7 +77,7 @@ async fn a_lease_that_is_not_renewed_ends_the_jog() {
     rig.until_event(1, |event| *event == Event::JogLeaseOver).await;
     rig.seconds(0.02).await;
     assert_eq!(rig.orders(), ["MOVE=,0,-1.5", "STOP="]);
-    // Renewed for the last time 0.9 s after the first.
+    // The last renewal came 0.9 s after the first.
     let held = rig.times("STOP=")[0].saturating_duration_since(renewed).as_secs_f64();
     assert!((1.15..1.25).contains(&held), "{held}");
 }
@@ -186,7 +186,7 @@ async fn after_a_link_lost_in_a_jog_the_first_frame_is_a_stop() {
     assert!(matches!(rig.shown().link, LinkState::Lost { .. }));
     assert!(rig.control.state().is_moving, "the unit goes on by itself");
     assert_eq!(rig.shown().jog, None);
-    // The key stays down.
+    // The operator holds the key down.
     rig.hold([1.0, 1.0], 3.0).await;
     rig.until_up(2).await;
     assert_eq!(rig.payloads()[before], "STOP=");

@@ -1,4 +1,4 @@
-//! The operator leaves the unit to others, and comes back.
+//! Release of a unit: the operator leaves it to others, and comes back.
 
 use azel::contract::driver::{Command, Event, Found, Intent, LinkState, Refusal, StopState};
 

@@ -1,4 +1,4 @@
-//! Lock-out of a unit: only questions and STOP go to it.
+//! Lock-out of a unit: Azel sends only questions and STOP.
 
 use azel::{
     astro::{Angle, AzEl},
@@ -40,7 +40,7 @@ async fn lock(rig: &mut Rig) {
     rig.events();
 }
 
-/// Commands received other than questions and STOP.
+/// Returns the received commands other than questions and STOP.
 fn others(rig: &Rig) -> Vec<String> {
     const STOP: [&str; 3] = ["STOP=", "TRACK=,0", "TRACK_AUTO_ENABLE=,0"];
     rig.orders().into_iter().filter(|payload| !STOP.contains(&payload.as_str())).collect()
@@ -174,7 +174,7 @@ async fn a_session_of_a_locked_unit_starts_locked_and_moves_nothing_from_the_fir
 
 #[tokio::test(start_paused = true)]
 async fn auto_track_that_stays_on_is_an_alarm_and_the_lock_stands_all_the_same() {
-    // Auto track is on, or not reported; the unit answers OK and changes nothing.
+    // Auto track is on or not reported. The unit answers OK and changes nothing.
     let on = format!("{}1", STILL.strip_suffix('0').unwrap());
     let silent = STILL.strip_suffix(",0").unwrap().to_owned();
     for status in [on, silent] {

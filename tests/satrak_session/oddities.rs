@@ -26,7 +26,7 @@ fn odd(quirks: &[Quirk], faults: &[Fault]) -> Options {
     }
 }
 
-/// Half a minute with such a unit, including a motion to a position.
+/// Runs such a unit for half a minute, including a motion to a position.
 async fn half_a_minute(quirks: &[Quirk], faults: &[Fault]) -> Rig {
     let mut rig = Rig::start(&odd(quirks, faults), &antenna());
     rig.until("position and faults", 20, |shown| {
@@ -42,7 +42,7 @@ async fn half_a_minute(quirks: &[Quirk], faults: &[Fault]) -> Rig {
     rig
 }
 
-/// Checks that the antenna arrived by one command, and is shown there.
+/// Checks that the antenna arrived by one command, and that Azel shows it there.
 fn assert_arrived(rig: &mut Rig, what: &str) {
     let (azimuth_deg, elevation_deg) = AIM_DEG;
     let aim = AzEl::from_degrees(azimuth_deg, elevation_deg);
@@ -99,7 +99,7 @@ async fn all_harmless_oddities_together_are_taken() {
 #[tokio::test(start_paused = true)]
 async fn each_fault_of_the_line_is_lived_with_and_counted() {
     for (fault, name) in Fault::ALL {
-        // A unit with false reports has tests of its own.
+        // Other tests cover a unit with false reports.
         let lies = matches!(fault, Fault::FrozenAngles | Fault::FalseRest);
         if lies || matches!(fault, Fault::Unit(_) | Fault::Silence | Fault::HangUp) {
             continue;
@@ -116,7 +116,7 @@ async fn each_fault_of_the_line_is_lived_with_and_counted() {
     }
 }
 
-/// Names of the checks that are not good.
+/// Returns the names of the checks that are not good.
 fn bad(shown: &Snapshot) -> Vec<&'static str> {
     let is_bad = |check: &&Check| matches!(check.state, CheckState::Caution | CheckState::Fault);
     shown.state.checks.iter().filter(is_bad).map(|check| check.name).collect()

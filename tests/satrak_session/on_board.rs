@@ -1,4 +1,4 @@
-//! On-board track: judged before it begins, and watched while it runs.
+//! On-board track, which Azel judges before it begins and watches while it runs.
 
 use azel::{
     astro::{Angle, AzEl, time},
@@ -22,10 +22,10 @@ use super::{
 };
 use crate::common::workers::{hold_up_workers, with_one_worker};
 
-/// Far enough south-east to see the pass differently: 1,596 km away.
+/// Place far enough south-east to see the pass differently: 1,596 km away.
 const ELSEWHERE: [(&str, f64); 2] = [("latitude_deg", 28.94), ("longitude_deg", 38.57)];
 
-/// A unit with its location and everything else read.
+/// Starts a unit and waits until Azel has read its location and everything else.
 async fn read() -> Rig {
     let mut rig = Rig::usual().await;
     rig.until("its place", 90, |shown| shown.state.on_board.place.is_some()).await;
@@ -59,7 +59,7 @@ pub(super) async fn by_another_at_once(rig: &Rig, payloads: &[&str]) {
     tokio::time::sleep(std::time::Duration::from_secs(1)).await;
 }
 
-/// Report on a unit that would miss; checks that nothing was sent.
+/// Requests a track that would miss, and returns the report on it. Checks that Azel sends nothing.
 async fn refused(rig: &mut Rig) -> Supervision {
     rig.events();
     rig.send(track(iss()));
@@ -102,7 +102,7 @@ async fn a_unit_that_stands_elsewhere_is_not_started_and_says_how_far() {
 async fn an_operator_who_agrees_is_told_that_it_misses_while_it_does() {
     let mut rig = read().await;
     stand_elsewhere(&mut rig).await;
-    // The unit must not point below the station's limit, whatever was agreed to.
+    // The unit must not point below the station's limit, even if the operator agreed.
     let agreed = || {
         let pass = OnBoardPass { is_agreed: true, ..scene::on_board(iss()) };
         Command::Track(Box::new(pass))
@@ -207,7 +207,7 @@ async fn a_path_below_the_antennas_limit_is_refused_with_time_and_place() {
     rig.seconds(5.0).await;
     assert_eq!(rig.orders(), [] as [&str; 0]);
 
-    // The window above it is tracked, and the metal stays above.
+    // The unit tracks the window above the limit, and the antenna stays above it.
     let satellite = scene::on_board(iss());
     let propagator = Propagator::new(&satellite.elements).unwrap();
     let search = PassSearch {
@@ -230,7 +230,7 @@ async fn a_path_below_the_antennas_limit_is_refused_with_time_and_place() {
     assert!((29.9..31.0).contains(&lowest.elevation_deg()), "{lowest:?}");
 }
 
-/// The setting of the window of `target`.
+/// Returns the setting of the window of `target`.
 pub(super) fn window(target: &TrackTarget) -> String {
     let text = |time| {
         let civil = jiff::tz::TimeZone::UTC.to_datetime(time);
@@ -253,7 +253,8 @@ async fn chosen_by_another(rig: &mut Rig, target: &TrackTarget) {
     rig.events();
 }
 
-/// A mast from 20 to 80 degrees of elevation around the azimuth of the pass's maximum.
+/// Returns bounds with a mast from 20 to 80 degrees of elevation around the azimuth of the pass's
+/// maximum.
 fn in_the_way() -> Bounds {
     let highest_deg = scene::pass().tca.direction.azimuth_deg();
     let [from_deg, to_deg] = [highest_deg - 10.0, highest_deg + 10.0];
@@ -263,7 +264,7 @@ fn in_the_way() -> Bounds {
     Bounds::new(&station, &antenna())
 }
 
-/// The keep-out is added while the unit tracks a pass that Azel requested.
+/// The operator adds the keep-out while the unit tracks a pass that Azel requested.
 #[tokio::test(start_paused = true)]
 async fn an_on_board_track_that_azel_started_stops_before_a_keep_out() {
     let alarm_alone = Antenna { monitor: Monitor::Alarm, ..antenna() };
@@ -342,7 +343,7 @@ async fn a_window_of_years_is_refused_before_it_is_judged() {
     assert!(refusal.contains("window") && refusal.contains("hours"), "{refusal}");
 }
 
-/// Time stands still here while the path is judged, so whatever happens meanwhile waits for nothing.
+/// Time stands still here while Azel judges the path, so events in between wait for nothing.
 #[test]
 fn stop_waits_for_no_judgement_of_a_path_and_ends_what_waits_for_it() {
     with_one_worker(async {

@@ -1,4 +1,4 @@
-//! Commands that are overtaken by a later one before they take effect.
+//! Commands that a later command overtakes before they take effect.
 
 use azel::{
     astro::Angle,
@@ -18,7 +18,7 @@ fn position() -> Command {
 #[tokio::test(start_paused = true)]
 async fn what_waits_in_the_queue_when_stop_is_pressed_is_never_sent() {
     let mut rig = Rig::usual().await;
-    // The session has no turn between these.
+    // The session has no turn between these commands.
     rig.send(Command::AutoTrack(true));
     rig.send(position());
     rig.send(track(iss()));

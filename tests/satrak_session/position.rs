@@ -54,7 +54,7 @@ async fn azimuth_alone_leaves_the_elevation_as_it_is() {
 
 #[tokio::test(start_paused = true)]
 async fn what_cannot_be_reached_is_refused_and_ends_nothing() {
-    // Low enough that the keyholes are the reason for the refusal.
+    // The limit is so low that the keyholes are the reason for the refusal.
     let mut low = antenna();
     low.limits.minimum_elevation_deg = 2.0;
     let mut rig = Rig::connected(&options(), &low).await;
@@ -64,7 +64,7 @@ async fn what_cannot_be_reached_is_refused_and_ends_nothing() {
         (Some(10.0), Some(1.9)),
         (None, Some(90.1)),
         (None, None),
-        // Along the lower axis, and across it at the end of its travel.
+        // Directions along the lower axis, and across it at the end of its travel.
         (Some(0.0), Some(4.0)),
         (Some(270.0), Some(4.0)),
     ] {

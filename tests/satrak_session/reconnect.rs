@@ -1,4 +1,4 @@
-//! A link that goes away and comes back.
+//! Link that breaks and comes back.
 
 use azel::{
     astro::Angle,
@@ -156,7 +156,7 @@ fn position() -> Command {
     Command::Position { azimuth: degrees(200.0), elevation: degrees(40.0) }
 }
 
-/// Another client sends this to the unit.
+/// Sends `request` to the unit from another client.
 async fn elsewhere(rig: &Rig, request: Request) {
     let (mut near, far) = tokio::io::duplex(4096);
     let unit = rig.control.clone();
@@ -169,7 +169,7 @@ fn goto() -> Request {
     Request::Motion(Motion::Goto(Goto::new(Some(200.0), Some(40.0)).unwrap()))
 }
 
-/// Returns the motion of the unit after an outage in which it received `request`, and whether
+/// Returns the motion of the unit after an outage in which it received `request`, and `true` if
 /// commands from Azel explain its state.
 async fn after_an_outage(rig: &mut Rig, request: Option<Request>, waits_s: f64) -> (Found, bool) {
     rig.set_off(true);
@@ -202,7 +202,7 @@ async fn a_unit_at_rest_that_was_turned_while_out_of_reach_is_not_as_it_was_left
     }
 }
 
-/// Near the end of the lower axis, directions tell little of the axes. The axes at rest still do.
+/// Near the end of the lower axis, directions say little about the axes. The axes at rest still do.
 #[tokio::test(start_paused = true)]
 async fn one_at_rest_near_the_end_of_its_lower_axis_is_compared_with_where_it_was_left() {
     for (request, wanted) in [(None, true), (Some(goto()), false)] {
@@ -215,7 +215,7 @@ async fn one_at_rest_near_the_end_of_its_lower_axis_is_compared_with_where_it_wa
     }
 }
 
-/// The position alone decides: a STOP that has not been sent, or was not answered, turns nothing.
+/// The position alone decides, because a STOP without a send or an answer turns nothing.
 #[tokio::test(start_paused = true)]
 async fn a_stop_that_is_owed_after_an_outage_hides_no_foreign_motion_and_pretends_none() {
     for (waits_s, request, wanted) in

@@ -18,12 +18,12 @@ use crate::common::{network, rig};
 pub(super) type Rig = rig::Rig<Control>;
 
 impl Rig {
-    /// A running session, not connected yet.
+    /// Starts a session that is not connected yet.
     pub(super) fn start(options: &Options, antenna: &Antenna) -> Self {
         Self::start_locked_out(options, antenna, None)
     }
 
-    /// A running session whose unit may be locked out already.
+    /// Starts a session whose unit may be locked out already.
     pub(super) fn start_locked_out(
         options: &Options,
         antenna: &Antenna,
@@ -33,7 +33,7 @@ impl Rig {
         Self::start_over(control, options.utc_origin, antenna, lock_out, network::link)
     }
 
-    /// A running session with a unit that runs already, over links made by `link`.
+    /// Starts a session with a unit that runs already, over links made by `link`.
     pub(super) fn start_over(
         control: Control,
         utc_origin: Timestamp,
@@ -48,7 +48,7 @@ impl Rig {
         })
     }
 
-    /// A session that has read its unit, at standstill.
+    /// Starts a session and waits until it has read its unit, at standstill.
     pub(super) async fn connected(options: &Options, antenna: &Antenna) -> Self {
         let mut rig = Self::start(options, antenna);
         rig.until("all is read", 5, |shown| shown.state.on_board.offsets.is_some()).await;
@@ -56,7 +56,7 @@ impl Rig {
         rig
     }
 
-    /// A session with the usual unit and antenna.
+    /// Starts a session with the default unit and antenna.
     pub(crate) async fn usual() -> Self {
         Self::connected(&options(), &antenna()).await
     }
@@ -66,22 +66,22 @@ impl Rig {
         self.handle().know_orbit(orbit);
     }
 
-    /// Payloads that the unit received, without questions.
+    /// Returns the payloads that the unit received, without questions.
     pub(super) fn orders(&self) -> Vec<String> {
         self.payloads().into_iter().filter(|payload| payload.contains('=')).collect()
     }
 
-    /// All payloads that the unit received.
+    /// Returns all payloads that the unit received.
     pub(super) fn payloads(&self) -> Vec<String> {
         self.control.received().into_iter().map(|(_, payload)| payload).collect()
     }
 
-    /// Received payloads with this word.
+    /// Returns the received payloads with this word.
     pub(super) fn sent(&self, word: &str) -> Vec<String> {
         self.payloads().into_iter().filter(|payload| payload.starts_with(word)).collect()
     }
 
-    /// Times at which payloads with this word came in.
+    /// Returns the times at which the unit received payloads with this word.
     pub(super) fn times(&self, word: &str) -> Vec<Instant> {
         let received = self.control.received().into_iter();
         received.filter(|(_, payload)| payload.starts_with(word)).map(|(at, _)| at).collect()

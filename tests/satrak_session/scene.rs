@@ -34,12 +34,12 @@ fn elements() -> Vec<Elements> {
     read_elements(ELEMENTS).elements
 }
 
-/// A pass high enough to be worth tracking.
+/// Returns a pass high enough to be worth tracking.
 pub(super) fn pass() -> Pass {
     first_pass(10.0, |pass| pass.max_elevation().degrees() > 40.0)
 }
 
-/// The first pass of this kind in three days.
+/// Returns the first pass of this kind in three days.
 fn first_pass(aos_elevation_deg: f64, is_wanted: impl Fn(&Pass) -> bool) -> Pass {
     let iss = &elements()[0];
     let propagator = Propagator::new(iss).unwrap();
@@ -50,12 +50,12 @@ fn first_pass(aos_elevation_deg: f64, is_wanted: impl Fn(&Pass) -> bool) -> Pass
     passes(&propagator, &search, &|| false).into_iter().find(is_wanted).unwrap()
 }
 
-/// The ISS for the whole of [`pass`].
+/// Returns the ISS for the whole of [`pass`].
 pub(crate) fn iss() -> TrackTarget {
     whole(&pass())
 }
 
-/// The ISS for a whole pass that begins low in the west.
+/// Returns the ISS for a whole pass that begins low in the west.
 pub(super) fn from_the_west() -> TrackTarget {
     let is_west = |pass: &Pass| (250.0..290.0).contains(&pass.aos.direction.azimuth_deg());
     whole(&first_pass(5.2, is_west))
@@ -71,7 +71,7 @@ fn whole(pass: &Pass) -> TrackTarget {
     }
 }
 
-/// Command to track `target`, with the elements of both on the same orbit.
+/// Returns a command to track `target`, with the orbit that both satellites share.
 pub(super) fn track(target: TrackTarget) -> Command {
     Command::Track(Box::new(on_board(target)))
 }
@@ -81,18 +81,18 @@ pub(crate) fn on_board(target: TrackTarget) -> OnBoardPass {
     OnBoardPass { target, elements, site: site(), is_agreed: false }
 }
 
-/// Orbit of both satellites.
+/// Returns the known orbit of one of the two satellites.
 pub(super) fn orbit(catalog_number: u32) -> Arc<KnownOrbit> {
     let elements = elements().swap_remove(usize::from(catalog_number == 25_545));
     Arc::new(KnownOrbit { elements, site: site() })
 }
 
-/// The other satellite on the same orbit.
+/// Returns the other satellite on the same orbit.
 pub(super) fn twin() -> TrackTarget {
     TrackTarget { catalog_number: 25_545, name: "TWIN".into(), ..iss() }
 }
 
-/// A well-behaved unit 90 seconds before [`pass`].
+/// Returns options of a well-behaved unit 90 seconds before [`pass`].
 pub(super) fn options() -> Options {
     Options {
         elements: BTreeMap::from([(FILE.to_owned(), elements())]),
@@ -104,7 +104,7 @@ pub(crate) fn antenna() -> Antenna {
     Antenna::satrak("Dish", "in memory")
 }
 
-/// A session of `antenna` over links from `dial`, and its handle.
+/// Creates a session of `antenna` over links from `dial`, and its handle.
 pub(super) fn session(antenna: &Antenna, dial: Dial, clock: Clock) -> (Session, AntennaHandle) {
     let satrak = Satrak::new(antenna.poll, FILE.to_owned());
     Session::new(Box::new(satrak), antenna, dial, clock, Arc::new(|| {}), Debts::default())

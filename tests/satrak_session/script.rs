@@ -22,7 +22,7 @@ use crate::common::clock::TestClock;
 /// A status of a unit at standstill.
 pub(super) const STILL: &str = "STATUS?,0,299.49,34.35,0,0,0,0,0,0,0,0,0,0,80.0,35.0,0";
 
-/// Replies to a payload, each after a delay.
+/// Replies to a payload, each after a delay in milliseconds.
 pub(super) type Script = Box<dyn FnMut(&str) -> Vec<(u64, String)> + Send>;
 
 /// A session with a scripted peer.
@@ -40,7 +40,7 @@ impl Scripted {
         Self::over(near, received)
     }
 
-    /// A session with a peer that answers the first question with `bytes`, and no other.
+    /// Starts a session with a peer that answers only the first question, with `bytes`.
     pub(super) fn raw(bytes: Vec<u8>) -> Self {
         let (near, mut far) = tokio::io::duplex(4096);
         tokio::spawn(async move {
@@ -49,7 +49,7 @@ impl Scripted {
                 sleep(Duration::from_millis(10)).await;
                 far.write_all(&bytes).await.unwrap();
             }
-            // Holds the link open until the session leaves it.
+            // Keep the link open until the session leaves it.
             while far.read(&mut buffer).await.is_ok_and(|count| count > 0) {}
         });
         Self::over(near, Arc::default())
@@ -105,7 +105,7 @@ async fn serve(far: DuplexStream, mut script: Script, received: Arc<Mutex<Vec<St
                 let writer = Arc::clone(&writer);
                 tokio::spawn(async move {
                     sleep(Duration::from_millis(delay_ms)).await;
-                    // An error is ignored: the session may be gone by then.
+                    // Ignore errors: the session may have ended by then.
                     let _ = writer.lock().await.write_all(&encode(&reply)).await;
                 });
             }
@@ -113,7 +113,7 @@ async fn serve(far: DuplexStream, mut script: Script, received: Arc<Mutex<Vec<St
     }
 }
 
-/// Answers of a plain unit after 10 ms, to payloads that the script leaves alone.
+/// Returns the answer of a plain unit to a payload, after 10 ms.
 pub(super) fn plain(payload: &str) -> Vec<(u64, String)> {
     let reply = match payload {
         "STATUS?" => STILL.to_owned(),

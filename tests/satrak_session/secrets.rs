@@ -1,4 +1,4 @@
-//! A run with a password in it, and a search of everything that it leaves behind.
+//! Secrets: a run with a password, and a search of everything that the run leaves behind.
 
 use std::{
     io,
@@ -64,10 +64,10 @@ async fn no_password_is_left_behind() {
     );
     write_settings(&mut rig, wish.clone()).await.unwrap();
     read(&mut rig, "ftp").await;
-    // The same over a line that spoils, splits and repeats bytes.
+    // Repeat this over a line that spoils, splits and repeats bytes.
     for fault in [Fault::Garbage, Fault::Split, Fault::Merge, Fault::BadChecksum] {
         rig.control.set_fault(fault, true);
-        // The change may come through or not.
+        // The change may or may not get through.
         let _ = write_settings(&mut rig, wish.clone()).await;
         read(&mut rig, "ftp").await;
         rig.control.set_fault(fault, false);

@@ -22,7 +22,7 @@ pub(super) async fn read(rig: &mut Rig, group: &'static str) -> Values {
     rig.shown().state.groups[group].last_read.clone().unwrap().values
 }
 
-/// Outcome of writing `change` to the unit.
+/// Writes `change` to the unit and returns the outcome.
 pub(super) async fn write_settings(rig: &mut Rig, change: Change) -> Result<(), WriteError> {
     static TICKET: AtomicU64 = AtomicU64::new(1);
     let (group, ticket) = (change.group, TICKET.fetch_add(1, Ordering::Relaxed));
@@ -48,7 +48,7 @@ pub(super) fn text(text: &str) -> Value {
     Value::Text(text.to_owned())
 }
 
-/// Value of a field, as the form shows it.
+/// Returns the value of a field as the form shows it.
 pub(super) fn shown(rig: &Rig, group: &'static str, field: &'static str) -> String {
     let shown = rig.shown();
     let held = shown.state.groups[group].last_read.as_ref().unwrap();
@@ -64,7 +64,7 @@ async fn every_group_is_read_and_every_field_of_it_shown() {
     rig.seconds(60.0).await;
     for group in GROUPS {
         let values = read(&mut rig, group.key).await;
-        // A new unit has found no satellite, and tells 0 for both.
+        // A new unit has found no satellite, and reports 0 for both.
         let of_satellite = ["catalog_number", "maximum_elevation_deg"];
         for field in group.fields.iter().filter(|field| field.access != Access::Write) {
             if of_satellite.contains(&field.key) {
@@ -188,7 +188,7 @@ async fn the_password_of_the_ftp_source_comes_through_and_is_never_shown() {
             ("on_error", Value::Choice(1)),
         ],
     );
-    // Read back and compared, the password too.
+    // Azel reads the values back and compares them, the password too.
     assert_eq!(write_settings(&mut rig, wish).await, Ok(()));
     assert_eq!(shown(&rig, "general", "tle_source"), "FTP", "read again after the source");
     let record = format!("{:?} {:?}", rig.shown(), rig.payloads());

@@ -1,4 +1,4 @@
-//! Settings that decide where the antenna points wait until it stands.
+//! Settings that change the pointing, which wait until the antenna stands.
 
 use azel::{
     contract::driver::{Command, Event, Refusal},

@@ -1,5 +1,5 @@
-//! Settings that do not get through: refused, changed by another client, lost with the
-//! link. The display shows the unit's values.
+//! Settings that do not get through: the unit refuses them, another client changes them, or the
+//! link breaks. The display shows the unit's values.
 
 use std::time::Duration;
 
@@ -29,7 +29,7 @@ async fn a_refused_setting_shows_the_code_and_what_the_unit_kept() {
     assert_eq!(refused, Err(WriteError::Refused("ERR,7".to_owned())));
     assert_eq!(shown(&rig, "general", "elevation_threshold_deg"), "2.0");
     assert_eq!(rig.sent("SETTINGS=").len(), 1, "never again by itself");
-    // Read back all the same.
+    // Azel reads the settings back all the same.
     assert!(rig.sent("SETTINGS?").len() >= 3);
 }
 

@@ -43,7 +43,7 @@ async fn it_is_told_once_within_a_second_of_the_first_missing_reply_until_it_ans
     let began = Instant::now();
     rig.until_event(3, is_it).await;
     let told_s = (Instant::now() - began).as_secs_f64();
-    // A poll period, 0.6 s for the first missing reply, and a second.
+    // The report takes a poll period, 0.6 s for the first missing reply, and a second.
     assert!((1.0..0.5 + 0.6 + 1.0).contains(&told_s), "{told_s}");
     assert!(rig.shown().silent);
     rig.seconds(10.0).await;
@@ -82,7 +82,7 @@ async fn while_it_moves_one_reply_that_is_lost_is_asked_for_again_at_once() {
     assert!(!rig.events().iter().any(is_it));
 }
 
-/// A reply does not tell which question it answers, so only their order does.
+/// A reply does not name its question, so Azel matches replies only by their order.
 #[tokio::test(start_paused = true)]
 async fn replies_that_are_four_seconds_late_are_never_taken_for_newer_ones() {
     let are_late = Arc::new(AtomicBool::new(false));

@@ -1,4 +1,4 @@
-//! A peer that reads nothing, until the buffers of the link are full.
+//! Peer that reads nothing, until the buffers of the link are full.
 
 use std::sync::{
     Arc,
@@ -20,7 +20,7 @@ use super::rig::{Rig, antenna, options};
 /// Capacity of the buffers of both ends, bytes: a question or two.
 const BUFFERS: usize = 40;
 
-/// Carries everything until the peer stalls; then it reads nothing but stays open.
+/// Carries all bytes until the peer stalls. The peer then reads nothing, but the link stays open.
 async fn carry(mut here: DuplexStream, mut there: DuplexStream, mut stalls: watch::Receiver<bool>) {
     let (mut out, mut back) = ([0; 64], [0; 1024]);
     loop {
@@ -50,7 +50,7 @@ async fn a_write_that_is_not_taken_ends_the_link_and_stop_is_first_on_the_next()
             let (there, far) = duplex(4096);
             let control = control.clone();
             tokio::spawn(async move { control.serve(far).await });
-            // The next one is not stalled.
+            // The next link does not stall.
             if dials.fetch_add(1, Ordering::Relaxed) > 0 {
                 return Box::new(there);
             }

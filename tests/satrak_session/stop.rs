@@ -1,4 +1,5 @@
-//! STOP: past everything, never refused, and not over before it is proved.
+//! STOP: Azel sends it before everything else, never refuses it, and ends it only with a proved
+//! standstill.
 
 use azel::{
     astro::Angle,
@@ -62,7 +63,7 @@ async fn a_stop_in_a_goto_is_sent_at_once_and_shown_until_proved() {
     assert_eq!(rig.sent("GOTO=").len(), 1);
 }
 
-/// A request made in time may come late from the station.
+/// A request made before the STOP may arrive late from the station.
 #[tokio::test(start_paused = true)]
 async fn what_was_asked_for_before_a_stop_is_void_wherever_it_waited() {
     let mut rig = Rig::usual().await;

@@ -1,4 +1,4 @@
-//! On-board track.
+//! On-board tracks and their requests to the unit.
 
 use azel::{
     astro::Angle,
@@ -21,7 +21,7 @@ fn window_of(target: &TrackTarget) -> String {
     format!("START_STOP_TIME=,{},{}", text(target.start), text(target.end))
 }
 
-/// Frames of a track in their order, without the polling around them.
+/// Returns the frames of a track in their order, without the polling around them.
 fn steps(rig: &Rig) -> Vec<String> {
     let payloads = rig.payloads();
     let first = payloads.iter().position(|payload| payload.starts_with("SATELLITE=")).unwrap();
@@ -207,7 +207,7 @@ async fn tracking_that_the_unit_ends_by_itself_is_told() {
     let mut rig = Rig::usual().await;
     tracking(&mut rig, &iss()).await;
     rig.seconds(100.0).await;
-    // A second client, such as the panel of the unit, switches it off.
+    // A second client, such as the panel of the unit, switches the track off.
     let (mut near, far) = tokio::io::duplex(256);
     let control = rig.control.clone();
     let other = tokio::spawn(async move { control.serve(far).await });
@@ -240,7 +240,7 @@ async fn a_unit_that_starts_to_track_by_itself_is_told_once_and_can_be_stopped()
     assert_eq!(rig.events(), []);
 }
 
-/// Both axes turn at once on the unit's own way to a pass, and an X/Y mount dips between.
+/// On the unit's own way to a pass, both axes turn at once, and an X/Y mount dips in between.
 #[tokio::test(start_paused = true)]
 async fn on_the_way_to_a_pass_the_antenna_keeps_above_its_minimum_elevation() {
     let target = from_the_west();

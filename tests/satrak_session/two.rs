@@ -22,7 +22,7 @@ async fn two() -> (Rig, Rig) {
     (one, other)
 }
 
-/// Keeps a jog key down in both.
+/// Holds a jog key in both programs.
 async fn hold_both(one: &mut Rig, other: &mut Rig, seconds: f64) {
     for _ in 0..(seconds * 10.0) as u32 {
         one.send(Command::Jog { rates_deg_s: [1.0, 0.0] });
@@ -42,7 +42,7 @@ async fn each_sees_what_the_other_moves_and_stop_of_either_is_proved() {
     other.until_event(5, |event| *event == Event::Stopped).await;
     assert!(!one.control.state().is_moving);
     assert!(matches!(other.shown().stop, StopState::Stopped { .. }));
-    // The key of the first stays down: a stopped motion does not begin again.
+    // The key of the first program stays down: a stopped motion does not begin again.
     let moves = one.sent("MOVE=").len();
     one.hold([1.0, 0.0], 3.0).await;
     assert!(!one.control.state().is_moving);
@@ -59,7 +59,7 @@ async fn of_two_jogs_at_once_the_last_counts_and_either_stop_ends_it() {
         stopping.stop();
         stopping.until_event(5, |event| *event == Event::Stopped).await;
         assert!(!stopping.control.state().is_moving);
-        // Both keys stay down.
+        // The operators hold both keys down.
         hold_both(&mut one, &mut other, 3.0).await;
         assert!(!one.control.state().is_moving, "by STOP of the first: {is_first}");
     }

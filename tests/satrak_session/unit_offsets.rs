@@ -1,4 +1,4 @@
-//! Offsets of a track that the unit computes, added from here while it tracks.
+//! Offsets that Azel adds to a track that the unit computes.
 
 use azel::{
     astro::{Angle, AzEl, Offset, TrackOffsets},
@@ -31,7 +31,7 @@ fn with(steps: &[Offset]) -> TrackOffsets {
     steps.iter().copied().try_fold(TrackOffsets::NONE, TrackOffsets::plus).unwrap()
 }
 
-/// A unit in mid-pass that held an azimuth offset of -0.1 degrees before.
+/// Starts a unit in mid-pass that held an azimuth offset of -0.1 degrees before.
 async fn in_a_pass() -> Rig {
     let mut rig = Rig::usual().await;
     let held = change("general", [("azimuth_offset_deg", Value::Decimal(-0.1))]);
@@ -165,7 +165,8 @@ async fn a_step_that_leads_too_low_is_refused_and_nothing_is_sent() {
     assert_eq!(rig.shown().unit_offsets, None);
 }
 
-/// A keep-out around the highest point of the pass, at elevations from so far above it to so far.
+/// Returns bounds with a keep-out around the highest point of the pass. `above_deg` has the heights
+/// of its lower and upper edge above that point.
 fn keep_out(above_deg: [f64; 2]) -> Bounds {
     let AzEl { azimuth, elevation } = scene::pass().tca.direction;
     let [from_deg, to_deg] = [azimuth.degrees() - 10.0, azimuth.degrees() + 10.0];
@@ -201,7 +202,8 @@ async fn a_step_is_judged_by_the_direction_on_the_sky_too() {
     offset(&rig, OffsetChange::Step(elevation(6.0)));
     until_added(&mut rig, with(&[elevation(6.0)])).await;
     assert_eq!(rig.events(), [], "it reads back as written");
-    // The axes keep clear of it, and the beam does not if the offset makes up for their error.
+    // The axes keep clear of the keep-out. The beam does not if the offset corrects an error of the
+    // axes.
     rig.handle().keep_within(keep_out([-2.0, 2.0]));
     offset(&rig, OffsetChange::Step(azimuth(0.1)));
     until_forbidden(&mut rig).await;
@@ -239,11 +241,11 @@ async fn what_cannot_be_taken_back_is_told_and_tried_again_until_it_is() {
     .await;
     let tries = rig.sent("SETTINGS=").len();
     rig.seconds(65.0).await;
-    // After 10 and 20 s; the next try comes after 40 s more.
+    // Azel tries after 10 and 20 s; the next try comes after 40 s more.
     assert_eq!(rig.sent("SETTINGS=").len(), tries + 2);
     assert_eq!(added(&rig), with(&[azimuth(0.2)]));
     rig.seconds(1190.0).await;
-    // After 70, 150, 310, 630 and 1,230 s: no wait is longer than 600 s.
+    // Azel tries after 70, 150, 310, 630 and 1,230 s, because no wait is longer than 600 s.
     assert_eq!(rig.sent("SETTINGS=").len(), tries + 7);
     rig.control.set_fault(Fault::RefuseSettings, false);
     rig.until("taken back", 620, |shown| shown.unit_offsets.is_none()).await;
@@ -312,7 +314,7 @@ async fn a_link_lost_while_they_are_taken_back_holds_nothing_up() {
     .await;
     rig.set_off(true);
     rig.until("lost", 20, |shown| !shown.link.is_open()).await;
-    // Its refusal is the last outcome of the group.
+    // The refusal of this change is the last outcome of the group.
     let other = change("general", [("azimuth_offset_deg", Value::Decimal(0.3))]);
     assert_eq!(write_settings(&mut rig, other).await, Err(WriteError::NoLink));
     rig.set_off(false);
@@ -340,7 +342,7 @@ async fn what_somebody_else_sets_meanwhile_is_left_alone() {
     assert_eq!(rig.shown().unit_offsets, None);
 }
 
-/// The unit tracks another satellite, and was never seen at rest between.
+/// Switches the unit to another satellite, without a rest that Azel could see.
 async fn goes_on_to_the_twin(rig: &Rig) {
     let choice = format!("SATELLITE=,{},{},1,0", scene::FILE, twin().name);
     by_another_at_once(rig, &[&choice, &window(&twin()), "TRACK=,1"]).await;

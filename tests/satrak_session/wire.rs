@@ -16,7 +16,7 @@ use super::{
 
 const FTP: &str = "SATELLITE_FTP?,10.0.1.2,user,hunter2,22,f.txt,AO-7,1,1";
 
-/// All recorded lines.
+/// Returns all recorded lines.
 pub(super) fn all(read: impl Fn(u64) -> Vec<Arc<Recorded>>) -> Vec<WireLine> {
     let mut lines = Vec::new();
     loop {
@@ -28,12 +28,12 @@ pub(super) fn all(read: impl Fn(u64) -> Vec<Arc<Recorded>>) -> Vec<WireLine> {
     }
 }
 
-/// Bytes of a line without its end.
+/// Returns the text of a line without its end.
 pub(super) fn line_text(line: &WireLine) -> String {
     String::from_utf8_lossy(&line.bytes).trim_end().to_owned()
 }
 
-/// Lines with this word.
+/// Returns the lines that begin with this word.
 fn with(lines: &[WireLine], word: &str) -> Vec<WireLine> {
     lines.iter().filter(|line| line_text(line).starts_with(word)).cloned().collect()
 }
@@ -143,7 +143,7 @@ async fn without_a_link_a_query_is_dropped_in_silence() {
     assert_eq!(rig.events(), []);
 }
 
-/// A unit that sends its password in every way, asked or not.
+/// Returns the script of a unit that sends its password in every way, asked or not.
 fn telltale() -> Script {
     let mut count = 0;
     Box::new(move |payload| {

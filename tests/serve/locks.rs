@@ -1,4 +1,4 @@
-//! Locks of units and stations, and the ways of STOP to the process that holds one.
+//! Locks of units and stations, and the ways of STOP to the process that holds a lock.
 
 use std::{
     os::unix::fs::{MetadataExt as _, PermissionsExt as _, symlink},
@@ -31,7 +31,7 @@ fn run(mut program: Process, arguments: &[&str]) -> Output {
     program.args(arguments).output().expect("it runs")
 }
 
-/// The program in an environment without a runtime folder, as cron and su leave it.
+/// Returns the program in an environment without a runtime folder, as cron and su leave it.
 fn without_runtime(units: &Units) -> Process {
     let mut program = program(units);
     program.env_remove("XDG_RUNTIME_DIR");
@@ -46,7 +46,8 @@ fn is_elsewhere(line: &Value) -> bool {
     line["antenna"] == "Dish" && line["text"] == "Driven by another Azel of this machine."
 }
 
-/// The second process must leave the unit alone, and says so before it could have asked anything.
+/// Checks that the second process leaves the unit alone and says so before it could ask the unit
+/// anything.
 fn leaves_the_unit_alone(served: &Served) {
     served.until(|line| {
         assert!(!is_up(line), "it drives the unit as well");
@@ -54,7 +55,7 @@ fn leaves_the_unit_alone(served: &Served) {
     });
 }
 
-/// Both outputs, for messages.
+/// Returns both outputs, for messages.
 fn words(output: &Output) -> String {
     format!("{}{}", says(output), String::from_utf8_lossy(&output.stderr))
 }
@@ -167,7 +168,7 @@ fn without_any_socket_stop_goes_by_signal_to_the_process_that_holds_the_station(
     let units = Units::start(|station| station.antennas.truncate(2));
     let first = Served::start(&units);
     first.until(is_up);
-    // No folder can be made where a file stands.
+    // Azel cannot make a folder where a file stands.
     std::fs::remove_dir_all(runtime(&units)).unwrap();
     std::fs::write(runtime(&units), "").unwrap();
     let stop = run(program(&units), &["stop"]);
@@ -197,8 +198,8 @@ fn a_unit_whose_lock_file_another_process_has_taken_is_left_to_it() {
     wait_for("it is taken again", || is_measured(client, "Dish"));
 }
 
-/// A file that says that `process` holds the station, as a version before machine-wide locks
-/// writes it. This process locks it.
+/// Creates a lock file that names `process` as the holder of the station, in the form of versions
+/// before machine-wide locks. This process locks the file.
 fn older_lock(units: &Units, process: u32) -> std::fs::File {
     drop(units.open());
     let run = units.folder.path().join("run");
@@ -320,13 +321,13 @@ fn a_held_stop_key_starts_no_thread_for_each_press() {
         most = most.max(threads());
         thread::sleep(Duration::from_millis(33));
     }
-    // Tests run beside this one, each with threads of its own.
+    // Other tests run beside this one, each with its own threads.
     assert!(most <= 8, "{most} threads");
     wait_for("STOP", || {
         let is_over = status(first.client(), "Mast").intent == "standby";
         (is_over && units.all_stand()).then_some(())
     });
-    // A press that comes while the answer to an earlier one is awaited is not lost.
+    // Azel does not lose a press that comes while it awaits the answer to an earlier one.
     lead_to_the_sun(first.client());
     client.stop_all();
     wait_for("STOP again", || {

@@ -1,4 +1,4 @@
-//! Programs of this computer point antennas through real sockets.
+//! Programs of this computer that point antennas through real sockets.
 
 use std::{
     io::{Read as _, Write as _},
@@ -18,7 +18,7 @@ use azel::{
 
 use super::{ANY_PORT, Units, id, is_measured, named, wait_for};
 
-/// Opens a port for the Satrak.
+/// Adds a network port for the Satrak to the station.
 fn open_port(station: &mut Station, listen: SocketAddr, allowed: &[&str]) {
     let allowed = allowed.iter().map(|address| address.parse().unwrap()).collect();
     let antenna = station.antennas[0].id;
@@ -67,7 +67,7 @@ fn a_program_that_asks_is_named_and_points_once_control_is_handed_over() {
     });
     assert_eq!(ask(&mut stream, "P 100 40"), "RPRT 0\n");
     wait_for("motion", || (!units.all_stand()).then_some(()));
-    // The decision is in the station file.
+    // Azel saves the decision in the station file.
     let file = std::fs::read_to_string(units.path()).unwrap();
     assert!(file.contains("allowed = [\"127.0.0.1\"]"), "{file}");
     drop(stream);

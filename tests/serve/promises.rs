@@ -1,4 +1,4 @@
-//! State that the next start must find, over real processes: killed ones, and disks that take
+//! State that the next start must find, tested with killed processes and with disks that take
 //! nothing.
 
 use std::path::Path;
@@ -18,7 +18,7 @@ fn find(folder: &Path, name: &str) -> bool {
     })
 }
 
-/// Presses STOP while the dish does not answer, and kills the program once that is on disk.
+/// Presses STOP while the dish does not answer, and kills the program once the STOP is on disk.
 fn killed_while_a_stop_is_owed(units: &Units) {
     let mut served = Served::start(units);
     wait_for("it is read", || {
@@ -38,7 +38,7 @@ fn killed_while_a_stop_is_owed(units: &Units) {
     units.dish.set_fault(satrak::Fault::Silence, false);
 }
 
-/// The first word of the next start to the dish.
+/// Starts the program again and returns it with its first payload to the dish.
 fn first_word(units: &Units) -> (Served, String) {
     let before = units.dish.received().len();
     let served = Served::start(units);
@@ -72,7 +72,7 @@ fn a_stop_that_is_owed_to_a_unit_of_no_antenna_outlives_a_kill() {
 #[test]
 fn a_stop_that_the_disk_does_not_take_is_acknowledged_as_such() {
     let units = Units::start(|station| station.antennas.truncate(1));
-    // A file stands where the folder of marks would be made.
+    // A file stands where Azel would make the folder of marks.
     let data = units.folder.path().join("data/azel");
     std::fs::create_dir_all(&data).unwrap();
     std::fs::write(data.join("marks"), "").unwrap();
@@ -89,7 +89,7 @@ fn a_stop_that_the_disk_does_not_take_is_acknowledged_as_such() {
     served.until(|told| {
         told["about"] == "alarm" && told["text"].as_str().is_some_and(|it| it.contains("on disk"))
     });
-    // The disk takes it later.
+    // Later, the disk takes the mark.
     std::fs::remove_file(data.join("marks")).unwrap();
     wait_for("it is on disk", || find(&data, "satrak-").then_some(()));
     let stop = program(&units).arg("stop").output().expect("it runs");
@@ -101,7 +101,7 @@ fn a_stop_that_the_disk_does_not_take_is_acknowledged_as_such() {
 #[test]
 fn lock_outs_that_the_disk_does_not_take_hold_and_are_acknowledged_as_such() {
     let units = Units::start(|station| station.antennas.truncate(2));
-    // The list can be read, and a save fails: a folder stands where it keeps the old list.
+    // Azel can read the list but not save it: a folder stands in the place of the old list.
     let list = units.folder.path().join(station::LOCK_OUTS_FILE);
     std::fs::write(&list, "version = 1\n").unwrap();
     std::fs::create_dir(list.with_added_extension("old")).unwrap();

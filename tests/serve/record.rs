@@ -18,13 +18,13 @@ use serde_json::Value;
 
 use super::{PATIENCE, Served, Units, program, says, wait_for};
 
-/// Kills of the short form; `AZEL_KILLS` sets another number, such as 100 for five minutes.
+/// Number of kills in the short form; `AZEL_KILLS` sets another number, such as 100 for five
+/// minutes.
 const KILLS: u32 = 3;
-/// Time of the record that a crash may cost.
+/// Max time of the record that a crash may cost.
 const LOST: SignedDuration = SignedDuration::from_secs(1);
-/// Longest time from one measured position to the next at two questions a second. Azel keeps
-/// positions measured up to [`LOST`] before a crash; the last of them can be older than that by
-/// this time.
+/// Max time between two measured positions at two questions a second. Azel keeps positions measured
+/// up to [`LOST`] before a crash; the last of them may be older by this time.
 const BETWEEN: SignedDuration = SignedDuration::from_millis(700);
 
 fn place(units: &Units) -> PathBuf {
@@ -43,7 +43,7 @@ pub(crate) fn rows(path: &Path, what: RowKind) -> Vec<Row> {
     rows
 }
 
-/// Lines of `azel log` with these arguments.
+/// Runs `azel log` with these arguments and returns its lines.
 fn log(units: &Units, arguments: &[&str]) -> Vec<Value> {
     let output = program(units).arg("log").args(arguments).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
@@ -56,7 +56,7 @@ fn the_log_tells_what_was_asked_of_a_station_and_what_was_measured() {
     let mut served = Served::start(&units);
     served.until(|told| told["antenna"] == "Mast" && told["about"] == "motion");
     let mut follower = program(&units)
-        // It may begin to follow after the STOP.
+        // The follower may start after the STOP.
         .args(["log", "--follow", "--from", "2000-01-01", "--kind", "stop"])
         .stdout(Stdio::piped())
         .spawn()
@@ -89,7 +89,7 @@ fn the_log_tells_what_was_asked_of_a_station_and_what_was_measured() {
     );
     let stopped = of("stop");
     assert!(stopped.iter().any(|it| it["antenna"] == "Mast" && it["data"] == "Stopped"));
-    // As times: of texts, one with fewer digits would come later.
+    // Compare times: as texts, a time with fewer digits would come later.
     let time = |entry: &Value| entry["time"].as_str().unwrap().parse::<Timestamp>().unwrap();
     assert!(entries.is_sorted_by_key(time), "{:?}", entries.iter().map(time).collect::<Vec<_>>());
 
@@ -107,7 +107,7 @@ fn the_log_tells_what_was_asked_of_a_station_and_what_was_measured() {
     assert_eq!(unknown.status.code(), Some(2));
 }
 
-/// Number of STOPs in a run that another program pressed.
+/// Counts the STOPs in a run that another program pressed.
 fn stops_in_run(path: &Path, run: u32) -> usize {
     let stops = rows(path, RowKind::Entry(Kind::Stop)).into_iter();
     stops.filter(|row| row.run == i64::from(run) && row.data["by"] == "program").count()
@@ -124,7 +124,7 @@ fn a_program_that_is_killed_loses_less_than_a_second_of_its_record() {
     for kill in 1..=kills {
         let begun = Timestamp::now();
         let served = Served::start(&units);
-        // The units live at another time of day than this program, and run with it.
+        // The clocks of the units show another time of day than this program.
         wait_for("positions of this run", || {
             let rows = rows(&path, RowKind::Position);
             rows.iter().any(|row| row.run == i64::from(kill) && row.time > begun).then_some(())
@@ -136,7 +136,7 @@ fn a_program_that_is_killed_loses_less_than_a_second_of_its_record() {
             assert!(stop.status.success(), "{}", String::from_utf8_lossy(&stop.stderr));
             pressed.push(Timestamp::now());
         }
-        // Somewhere between two writes.
+        // Kill the program at some time between two writes.
         let until = Instant::now() + Duration::from_millis(u64::from(kill * 137 % 500));
         wait_for("the moment", || (Instant::now() >= until).then_some(()));
         let killed = Timestamp::now();
@@ -164,7 +164,7 @@ fn a_program_that_is_killed_loses_less_than_a_second_of_its_record() {
     );
 }
 
-/// A disk of one megabyte, until it is dropped.
+/// Disk of one megabyte that exists until it is dropped.
 struct SmallDisk<'a>(&'a Path);
 
 impl<'a> SmallDisk<'a> {
@@ -195,7 +195,7 @@ fn a_full_disk_costs_nothing_that_was_written_and_the_record_goes_on_when_there_
     let count = || rows(&path, RowKind::Position).len();
     wait_for("a record", || (count() > 5).then_some(()));
     let ballast = disk.0.join("ballast");
-    // All that is left of the disk.
+    // The file takes the rest of the disk.
     let _ = fs::write(&ballast, vec![0; 1 << 20]);
     served.until(|told| told["text"].as_str().is_some_and(|it| it.contains("the disk is full")));
     let before = count();
@@ -218,7 +218,7 @@ fn a_full_disk_costs_nothing_that_was_written_and_the_record_goes_on_when_there_
     let times: Vec<Timestamp> = of_dish.map(|row| row.time).collect();
     let longest = times.windows(2).map(|pair| pair[1].duration_since(pair[0])).max().unwrap();
     assert!(longest <= BETWEEN, "{longest:?}");
-    // The logs of the sessions held what did not fit on the disk.
+    // The logs of the sessions held the data that the full disk did not take.
     assert_eq!(rows(&path, RowKind::Entry(Kind::Gap)), []);
     drop(served);
 }

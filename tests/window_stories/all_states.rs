@@ -1,7 +1,8 @@
-//! Every state of an antenna is whole on its chip and its card, with the longest names and numbers.
+//! Every state of an antenna, shown whole on its chip and its card, with the longest names and
+//! numbers.
 //!
-//! Each list goes from one state to the next by a `match` that names all of them: a new state cannot
-//! be forgotten.
+//! Each list goes from one state to the next by a `match` that names all of them, so the compiler
+//! rejects a forgotten state.
 
 use std::{iter::successors, sync::Arc, time::Duration};
 
@@ -28,9 +29,9 @@ use crate::window_stories::{
 
 const SIZES: [[f32; 2]; 3] = [SMALL, LARGE, [1920.0, 1080.0]];
 const LONG: &str = "Northern 3.7 m dish of Şile, X/Y";
-/// For how long there is no link; no time up to a week is written with more letters.
+/// Time without a link; Azel writes no time up to a week with more letters.
 const LOST: Duration = Duration::from_secs(24 * 3600 - 1);
-/// The age of the last reply of a unit that replies.
+/// Age of the last reply of a unit that replies.
 const AGE: Duration = Duration::from_millis(9900);
 
 fn losses() -> impl Iterator<Item = LinkLoss> {
@@ -149,7 +150,8 @@ fn check(what: &str, snapshot: &Snapshot, operation: Option<&Operation>) {
     }
 }
 
-/// Names are cut where they have no room, and so are the lines of the other antennas below the card.
+/// Returns `true` if Azel may cut the text: a name without room, or a line of another antenna below
+/// the card.
 fn may_be_cut(words: &str) -> bool {
     words.starts_with("Northern") || words.starts_with("Holding at ")
 }

@@ -89,7 +89,7 @@ fn distances_are_shown_in_the_unit_that_is_chosen() {
         let figure = |appearance| {
             let words = heard(view, appearance);
             let at = words.iter().position(|of| of.starts_with(before)).expect("a range");
-            // The rate of the range stands in a line below it.
+            // The rate of the range stands in a line below the range.
             let mut lines = words[at..].iter().filter_map(|of| of.lines().next());
             let words = lines.find(|of| of.ends_with("km") || of.ends_with("mi"));
             let words: Vec<_> = words.expect("a distance").rsplit([' ', ',']).collect();

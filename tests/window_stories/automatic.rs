@@ -28,7 +28,7 @@ use crate::window_stories::{
 const INTERRUPTIONS: [Interruption; 4] =
     [Interruption::ByHand, Interruption::Elsewhere, Interruption::EndedByUnit, Interruption::Clock];
 
-/// Automatic operation that is on.
+/// Returns automatic operation that is on.
 pub(crate) fn on(doing: &Doing) -> Operation {
     let on = serde_json::json!({
         "on": { "doing": doing, "failures": 0, "moved_at": null, "moves_since": null }
@@ -40,11 +40,11 @@ fn suspended(by: Interruption) -> Operation {
     Operation::Suspended { interruption: by, start: rig::now() }
 }
 
-/// Three antennas, of which the first has this operation and a plan.
+/// Returns three antennas, of which the first has this operation and a plan.
 pub(crate) fn scene(operation: Operation) -> Model {
     let mut model = three();
     model.shown_mut().schedule = Arc::new(plan::planned(&model));
-    // The pass that is up is not its own.
+    // Remove the pass that is up, because it does not belong to this antenna.
     let schedule = &mut Arc::make_mut(&mut model.shown_mut().schedule).schedule;
     schedule.entries.retain(|entry| entry.start > rig::now());
     model.shown_mut().antennas[0].operation = operation;
@@ -55,7 +55,7 @@ pub(crate) fn suspended_scene() -> Model {
     scene(suspended(Interruption::Clock))
 }
 
-/// The pass under way, taken until 11:21:27Z.
+/// Returns the state of automatic operation that takes the pass under way until 11:21:27Z.
 fn taking(proved: bool) -> Doing {
     let model = rig::model(rig::quiet());
     let noaa_20 = model.pass_of(rig::NOAA_20).unwrap();
@@ -80,7 +80,7 @@ fn announces() -> Doing {
     Doing::Announces { moves_at: add_seconds(model.now, 7.0), pass }
 }
 
-/// The words of automatic operation on the card, as they are painted.
+/// Returns the painted words of automatic operation on the card.
 fn on_card(window: &Window) -> String {
     let node = window.get_by_label_contains("Automatic operation: ");
     let label = node.accesskit_node().value().unwrap();
@@ -197,7 +197,7 @@ fn the_label_of_a_lane_cuts_no_time_and_its_button_lies_beside_the_bars() {
 fn a_long_name_in_a_lane_is_cut_after_its_time() {
     let mut model = scene(on(&Doing::Rests));
     model.view = View::Plan;
-    // The name of a satellite that no list knows is its number.
+    // A satellite that no list knows has its number as its name.
     let entry = &mut Arc::make_mut(&mut model.shown_mut().schedule).schedule.entries[0];
     entry.pass.satellite = 799_999_999;
     let window = rig::window(LARGE, model);
@@ -205,7 +205,7 @@ fn a_long_name_in_a_lane_is_cut_after_its_time() {
     assert!(texts.iter().any(|text| text == "On. Next 12:31:57Z: 799999999."), "{texts:?}");
 }
 
-/// The plan goes on with SUOMI NPP.
+/// Words for the next pass in the plan, of SUOMI NPP.
 const NEXT: &str = "The next would be SUOMI NPP at 12:31:57Z.";
 
 #[test]

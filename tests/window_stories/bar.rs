@@ -1,4 +1,4 @@
-//! Bar at the top: alarms, chips, theme; and the table of the axes.
+//! Bar at the top, with alarms, chips and theme, and the table of the axes.
 
 use azel::{
     astro::Angle,
@@ -68,7 +68,7 @@ fn the_alarm_list_leaves_the_countdown_of_the_pass_free() {
         let list = open.expect("the list is open");
         assert!(window.ctx.content_rect().contains_rect(list), "{list:?}");
         assert!(list.left() >= countdown.right(), "{size:?}: {list:?} {countdown:?}");
-        // Its first pixels are a shadow.
+        // The first pixels of the list are a shadow.
         let bar = if size[1] < 720.0 { 48.0 } else { 56.0 };
         assert!(list.top() >= bar, "{size:?}: {list:?} is over the bar");
         for button in window.query_all_by_label_contains("Acknowledge: ") {
@@ -409,7 +409,7 @@ fn rows(window: &Window) -> Vec<String> {
     rows.filter_map(|node| node.accesskit_node().value()).collect()
 }
 
-/// Two antennas, the first off its satellite; the one at `selected` is selected.
+/// Returns two antennas, the first off its satellite; the one at `selected` is selected.
 fn off_target(selected: usize) -> Model {
     let mut model = rig::model(states::tracking(2.0));
     let mut second = model.station.antennas[0].clone();

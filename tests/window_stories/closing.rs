@@ -1,4 +1,4 @@
-//! Closing the window while something typed is not where it belongs.
+//! Closing of the window with typed text that is not yet saved or sent.
 
 use std::{path::Path, sync::Arc};
 
@@ -25,7 +25,7 @@ use crate::window_stories::{
     unit::{RealWindow, Unit, clock_from, open, step_until, wait_until},
 };
 
-/// Lets the window manager ask; returns the window's answer.
+/// Sends the window manager's request to close the window, and returns the window's answer.
 fn close(window: &mut RealWindow) -> Vec<ViewportCommand> {
     let root = window.input_mut().viewports.entry(ViewportId::ROOT).or_default();
     root.events.push(ViewportEvent::Close);
@@ -83,7 +83,7 @@ fn a_window_with_unsaved_settings_asks_first() {
     assert_eq!(close(&mut window), [], "it was asked once");
 }
 
-/// Question shown when the window of `model` is to close.
+/// Returns a window with the question that closing `model` brings up.
 pub(crate) fn asked_about(size: [f32; 2], model: Model) -> Window {
     let mut window = rig::window(size, model);
     let story = window.state_mut();
@@ -176,7 +176,7 @@ fn an_answer_that_means_nothing_is_not_offered() {
     }
 }
 
-/// A window whose unit tracks NOAA 20.
+/// Opens a window whose unit tracks NOAA 20.
 fn tracking(unit: &Unit, path: &Path) -> RealWindow {
     station::save(&unit.station(), path, SPECS).unwrap();
     let mut window = open(path, clock_from(UTC.parse().unwrap()));
@@ -184,7 +184,7 @@ fn tracking(unit: &Unit, path: &Path) -> RealWindow {
         model.antenna().is_some_and(|of| of.snapshot.state.motion_lock == Some(false))
     });
     step_until(&mut window, "the passes are planned", |model| {
-        // The bars of the strip change their places with the first plan.
+        // Wait for the first plan, because it changes the places of the bars in the strip.
         model.schedule.made_at.is_some() && model.pass_of(NOAA_20).is_some()
     });
     window.get_by_label_contains("NOAA 20, 11:08Z to 11:21Z").click();
@@ -199,7 +199,7 @@ fn tracking(unit: &Unit, path: &Path) -> RealWindow {
 
 const UTC: &str = "2026-08-12T11:14:30Z";
 
-/// Frames until the window wants to close.
+/// Runs frames until the window asks to close.
 fn until_it_closes(window: &mut RealWindow) {
     wait_until("it closes", || {
         window.step();

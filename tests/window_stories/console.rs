@@ -1,4 +1,4 @@
-//! Log of the links: read, filtered, frozen, selected and copied.
+//! Log of the links: the operator reads, filters, freezes, selects and copies its lines.
 
 use std::time::Duration;
 
@@ -20,7 +20,7 @@ use crate::window_stories::{
 
 const STATE: &str = "STATUS?,0,299.49,34.35,1,0,0,0,0,0,0,0,0,0,80.0,35.0,1";
 
-/// A frame on the link, `second` seconds after the start of a story.
+/// Returns a frame on the link, `second` seconds after the start of a story.
 pub(crate) fn wire(second: f64, direction: Direction, payload: &str) -> WireLine {
     let bytes = encode(payload);
     let is_reply = direction == Direction::Received;
@@ -42,7 +42,7 @@ fn poll(second: f64) -> [WireLine; 2] {
         .map(|(direction, payload)| WireLine { is_poll: true, ..wire(second, direction, payload) })
 }
 
-/// A poll, a refused motion, a damaged line and a missing reply.
+/// Adds a poll, a refused motion, a damaged line and a missing reply to the log.
 fn conversation(log: &WireLog) {
     for line in poll(1.0) {
         log.push(line);
@@ -69,7 +69,7 @@ fn log(window: &Window) -> WireLog {
     window.state().model.wires[0].clone()
 }
 
-/// Visible rows from top to bottom.
+/// Returns the visible rows from top to bottom.
 fn rows(window: &Window) -> Vec<String> {
     let mut rows: Vec<_> = window
         .query_all_by_role(Role::ListBoxOption)
@@ -99,7 +99,7 @@ pub(crate) fn write(window: &mut Window, field: &str, words: &str) {
     settle(window);
 }
 
-/// Texts that `act` copied to the clipboard.
+/// Returns the texts that `act` copied to the clipboard.
 pub(crate) fn copied(window: &mut Window, act: impl FnOnce(&mut Window)) -> Vec<String> {
     act(window);
     for _ in 0..4 {

@@ -1,5 +1,4 @@
-//! Questions sent from the console, its lines saved, and the complete console in every
-//! window.
+//! Questions sent from the console, saving of its lines, and the complete console in every window.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! Copying of shown texts, for another program or a message.
+//! Copying of shown texts to another program or a message.
 
 use egui::{Event, Role, accesskit::Live};
 use egui_kittest::{
@@ -12,7 +12,7 @@ use crate::window_stories::{
     states,
 };
 
-/// The first row of the list of passes.
+/// Returns the first row of the list of passes.
 fn row(window: &Window) -> Node<'_> {
     let mut rows = window.get_all_by_role(Role::ListBoxOption);
     let is_row = |node: &Node<'_>| {
@@ -21,7 +21,7 @@ fn row(window: &Window) -> Node<'_> {
     rows.find(is_row).unwrap()
 }
 
-/// Chooses `item` from the menu of what `open` opens.
+/// Opens a menu by `open`, chooses `item` and returns the copied text.
 fn choose(window: &mut Window, item: &str, open: impl FnOnce(&Window)) -> String {
     open(window);
     settle(window);

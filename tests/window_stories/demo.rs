@@ -42,7 +42,7 @@ fn measured(model: &Model, antenna: usize) -> Option<Measured> {
     model.antennas[antenna].snapshot.state.measured.filter(|_| is_up)
 }
 
-/// Returns `true` if the antenna stands there, within the resolution of its sensor.
+/// Returns `true` if the antenna stands at this direction, within the resolution of its sensor.
 fn stands_at(model: &Model, antenna: usize, azimuth_deg: f64, elevation_deg: f64) -> bool {
     let wanted = AzEl::from_degrees(azimuth_deg, elevation_deg);
     measured(model, antenna).is_some_and(|measured| {
@@ -84,7 +84,7 @@ fn the_rc2000c_is_calibrated_and_goes_where_it_is_sent() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = open_demo(&folder);
     send(&window, RC2000C, Command::Connect);
-    // 1525 and 750 counts, 20 a degree.
+    // The unit starts at 1525 and 750 counts, with 20 counts a degree.
     step_until(&mut window, "it is measured", |model| stands_at(model, RC2000C, 164.75, 36.0));
     go_to(&mut window, RC2000C, 169.0, 33.0);
 }
@@ -188,7 +188,7 @@ fn a_pass_under_way_is_reported_before_a_station_of_ones_own_comes_into_use() {
     };
     let running = Handle::start(settings, clock_from(rig::now()), Arc::new(|| ())).unwrap();
     let client = running.client();
-    // It is refused until the faults of the unit are known.
+    // Azel refuses the track until it knows the faults of the unit.
     wait_until("the track", || {
         let shown = client.snapshot();
         if shown.antennas.get(SATRAK).is_some_and(azel::contract::antenna::AntennaModel::tracks) {
@@ -205,7 +205,7 @@ fn a_pass_under_way_is_reported_before_a_station_of_ones_own_comes_into_use() {
         false
     });
     let tracked_at = client.now().utc;
-    // It is taken up within a second.
+    // The station takes the track up within a second.
     wait_until("the pass", || client.now().utc > tracked_at + 2.seconds());
     let own = station::Station { antennas: Vec::new(), ..station::Station::default() };
     client.send(contract::Command::SaveStation(Box::new(own))).unwrap();

@@ -49,7 +49,8 @@ fn while_it_is_tracked_there_is_nothing_to_ask_for() {
     }
 }
 
-/// The time that the antenna needs to get to the pass, by the text that contains `words`.
+/// Returns the shown time that the antenna needs to get to the pass, from the text that contains
+/// `words`.
 fn needs(window: &Window, words: &str) -> String {
     let mut texts = window.query_all_by_label_contains(words).filter_map(|node| {
         let node = node.accesskit_node();
@@ -62,7 +63,8 @@ fn needs(window: &Window, words: &str) -> String {
 
 #[test]
 fn t_asks_and_only_enter_tracks() {
-    // From where it stands to where it meets the satellite, and how long that takes.
+    // The question names the antenna's position, the position where it meets the satellite, and the
+    // time between them.
     let question = "Track NOAA 20 with Satrak? The antenna moves from 343.1°, 5.0° to ";
     for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::holding()));
@@ -115,7 +117,7 @@ fn m_gives_the_arrows_to_the_jog_pad_and_moves_nothing_itself() {
                 window.key_press(Key::Enter);
             }
             assert_eq!(asked(&mut window), [antenna(Command::Manual)]);
-            // The session shows it a moment later.
+            // The session shows the new mode a moment later.
             window.state_mut().model.shown_mut().antennas[0].snapshot = states::manual().into();
             assert_eq!(asked(&mut window), [], "nothing moves by itself");
             assert!(window.get_by_label(pad).is_focused());
@@ -281,7 +283,7 @@ fn g_leads_to_the_fields_and_what_is_typed_goes_out() {
     for size in rig::sizes() {
         let snapshot = Snapshot { intent: Intent::Position, ..states::holding() };
         let mut window = rig::window(size, rig::model(snapshot));
-        // A real key comes with its letter.
+        // Press a real key, which comes with its letter.
         let g = |pressed| egui::Event::Key {
             key: Key::G,
             physical_key: None,

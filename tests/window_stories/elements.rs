@@ -41,7 +41,7 @@ pub(crate) fn file_source() -> Source {
     }
 }
 
-/// Report of a source with this number of objects.
+/// Returns the report of a source with this number of objects.
 pub(crate) fn report(source: &Source, objects: usize) -> SourceReport {
     let path = PathBuf::from("/var/elements/own.tle");
     let file = FileReport { path, objects, merge: MergeSummary::default(), problem: None };
@@ -59,7 +59,7 @@ pub(crate) fn report(source: &Source, objects: usize) -> SourceReport {
     }
 }
 
-/// A server whose last request was `hours_ago`.
+/// Returns a server whose last request was `hours_ago`, and its report.
 pub(crate) fn server(hours_ago: f64) -> (Source, SourceReport) {
     let source = Source::celestrak("weather");
     let next = add_seconds(rig::now(), (2.0 - hours_ago) * HOUR_S);
@@ -74,7 +74,7 @@ pub(crate) fn view(size: [f32; 2], sources: Vec<(Source, SourceReport)>) -> Wind
     model.shown_mut().sources = Arc::new(Sources { list, reports, ..Sources::default() });
     let mut window = rig::window(size, model);
     if size == rig::SMALL {
-        // In a low window they are folded.
+        // A low window folds the sources.
         sources_bar(&window).click();
         settle(&mut window);
     }
@@ -329,7 +329,7 @@ fn a_known_server_is_filled_in_and_a_plain_address_is_refused() {
     }
 }
 
-/// Space-Track, whose server has no password.
+/// Returns Space-Track as a source whose password is missing, and its report.
 fn space_track() -> (Source, SourceReport) {
     let source = Source {
         name: "Space-Track".to_owned(),

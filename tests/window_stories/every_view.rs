@@ -1,4 +1,4 @@
-//! Every view, and everything that opens over one: what must hold of all of them.
+//! Checks of every view, and of every popup over a view.
 
 mod contrast;
 mod cut;
@@ -50,7 +50,7 @@ impl Scene {
     }
 }
 
-/// The view of one of [`SCENES`].
+/// Opens the view of one of [`SCENES`].
 pub(crate) fn scene(name: &str, size: [f32; 2]) -> Window {
     SCENES.iter().find(|scene| scene.name == name).expect("a scene of this name").open(size)
 }
@@ -202,7 +202,7 @@ pub(crate) const SCENES: [Scene; 50] = [
     named("Set-up, check and finish", |size| at_step(size, 4)),
 ];
 
-/// The faults that the checks have found, and how much each of them has looked at.
+/// Faults that the checks have found, and the number of things that each check has looked at.
 #[derive(Default)]
 struct Findings {
     scene: &'static str,
@@ -236,9 +236,11 @@ impl Findings {
     }
 }
 
-/// Times of the scenes are of another day then, and those of the next hours stand out.
+/// Seconds by which the present moves back, to another day than the scene's times. The times of the
+/// next hours then stand out.
 const BACK_S: f64 = 36.0 * 3600.0;
-/// Most times of the next hours carry a day then, and are longer.
+/// Seconds by which the present moves back, so that most times of the next hours carry a day and
+/// are longer.
 const LONG_TIMES_BACK_S: f64 = 12.0 * 3600.0;
 
 /// Sets the present of the scene.
@@ -247,14 +249,14 @@ fn set_now(window: &mut Window, now: Timestamp) {
     settle(window);
 }
 
-/// Opens each scene once and makes all checks in it, those first that leave it as it is. The
-/// smallest window is also looked at with the pixels of 200 %.
+/// Opens each scene once and makes all checks in it, starting with those that do not change it. The
+/// smallest window also gets a check with the pixels of 200 %.
 fn check_all(size: [f32; 2], minima: &[(&str, usize)]) {
     let mut findings = Findings::default();
     for scene in &SCENES {
         let mut window = scene.open(size);
         cut::check(&window, findings.begin(scene, "cut texts"));
-        // A drawer lies over the plot, and is read after it.
+        // A drawer lies over the plot, so the reading order has it after the plot.
         if size != SMALL || scene.name != "Operate, drawer of passes" {
             order::check(&window, findings.begin(scene, "reading order"));
         }
@@ -266,7 +268,7 @@ fn check_all(size: [f32; 2], minima: &[(&str, usize)]) {
         let now = window.state().model.now;
         set_now(&mut window, add_seconds(now, -LONG_TIMES_BACK_S));
         overlaps::check(&window, findings.begin(scene, "overlaps on another day"));
-        // A question keeps the words of the time at which it was asked.
+        // A question keeps the words that it had when it opened.
         if scene.name != "Question" {
             set_now(&mut window, add_seconds(now, -BACK_S));
             days::check(&window, findings.begin(scene, "days of times"));
@@ -321,7 +323,7 @@ fn press(window: &mut Window, key: Key) {
     take_up(window);
 }
 
-/// Carries out the command that a key has asked for, as far as it opens something.
+/// Carries out the requested command of a key, if the command opens something.
 fn take_up(window: &mut Window) {
     let opens = |command: &UiCommand| {
         matches!(command, UiCommand::Station(contract::Command::OpenedAlarms))
@@ -332,7 +334,7 @@ fn take_up(window: &mut Window) {
     settle(window);
 }
 
-/// The window after a click on the control whose name contains `words`.
+/// Returns the window after a click on the control whose name contains `words`.
 fn opened_by(mut window: Window, words: &str) -> Window {
     let is_control = |role| matches!(role, Role::Button | Role::RadioButton);
     let mut found = window.query_all_by_label_contains(words);
@@ -379,7 +381,7 @@ fn without_antennas() -> Model {
     model
 }
 
-/// An alarm of each rank: new, seen, over and shelved.
+/// Returns a model with an alarm of each rank: new, seen, over and shelved.
 fn alarmed() -> Model {
     let mut model = rig::model(states::holding());
     let (of, now) = (Some(AntennaId::FIRST), model.now);
@@ -400,7 +402,7 @@ fn sources() -> Vec<(azel::orbit::Source, azel::orbit::SourceReport)> {
     vec![(own, report), elements::server(5.0)]
 }
 
-/// The set-up after `steps` of its steps.
+/// Returns a window with the set-up after `steps` of its steps.
 fn at_step(size: [f32; 2], steps: usize) -> Window {
     let mut window = setup::window(size);
     setup::write_site(&mut window);

@@ -1,4 +1,4 @@
-//! Rare cases: long names, nothing there, nothing known.
+//! Rare cases: long names, no content, and unknown values.
 
 use std::sync::Arc;
 
@@ -20,11 +20,11 @@ use crate::window_stories::{
     states,
 };
 
-/// Longest name that the layout is made for.
+/// Longest name that the layout must fit.
 const LONG: &str = "Şile northern field unit";
 
-/// Checks that every control is inside the window, and STOP in its usual place. The last
-/// lines of the card may have to be scrolled to.
+/// Checks that every control is inside the window, and STOP in its normal place. The last lines of
+/// the card may need scrolling.
 pub(crate) fn nothing_is_cut(window: &Window, size: [f32; 2]) {
     let whole = Rect::from_min_size(pos2(0.0, 0.0), vec2(size[0], size[1]));
     for role in [Role::Button, Role::RadioButton, Role::TextInput, Role::Slider, Role::Tab] {
@@ -168,13 +168,13 @@ fn what_saving_does_to_the_demonstration_is_said_before_and_while_one_types() {
     }
 }
 
-/// Places of all controls of the window.
+/// Returns the places of all controls of the window.
 fn places(window: &Window) -> Vec<(String, Rect)> {
     let roles = [Role::Button, Role::RadioButton, Role::TextInput, Role::ListBoxOption];
     let of =
         |role| window.query_all_by_role(role).map(|of| (of.accesskit_node().label(), of.rect()));
     let all = roles.into_iter().flat_map(of);
-    // One button says what it ends, at the same place.
+    // One button has another name in the demo, at the same place.
     let name = |name: String| name.replace("Save and end the demo", "Save and use");
     let named = all.filter_map(|(label, place)| Some((name(label?), place)));
     named.filter(|(name, _)| name != "Set up your station").collect()
@@ -192,7 +192,7 @@ fn the_end_of_the_demonstration_moves_nothing_under_the_pointer() {
             settle(&mut window);
             assert_eq!(places(&window), before, "{view:?} {size:?}");
             assert!(!says(&window, "Demo station"));
-            // The room is given back with the next view.
+            // The next view uses the room of the banner.
             for view in [View::Console, view] {
                 window.state_mut().model.view = view;
                 settle(&mut window);

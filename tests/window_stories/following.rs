@@ -27,7 +27,7 @@ use crate::window_stories::{rig, states};
 
 const WANTED: AzEl = AzEl::from_degrees(134.0, 20.0);
 
-/// A Genius that tracks NOAA 20 and points `off_deg` too high.
+/// Returns a Genius that tracks NOAA 20 and points `off_deg` too high.
 fn following(phase: TrackPhase, off_deg: f64, motion: AxisMotion) -> Model {
     let is_up = phase == TrackPhase::Tracking;
     let predicted = Sample { time: rig::now(), direction: WANTED };
@@ -58,7 +58,7 @@ fn following(phase: TrackPhase, off_deg: f64, motion: AxisMotion) -> Model {
     model
 }
 
-/// A Genius that tracks NOAA 20 with these offsets.
+/// Returns a Genius that tracks NOAA 20 with these offsets.
 pub(super) fn tracking(offsets: TrackOffsets) -> Model {
     let mut model = following(TrackPhase::Tracking, 0.0, AxisMotion::Plus);
     let snapshot = Arc::make_mut(&mut model.shown_mut().antennas[0].snapshot);
@@ -160,7 +160,7 @@ fn a_target_beyond_the_travel_is_out_of_reach_and_waited_for() {
     else {
         panic!("a Genius turns azimuth and elevation")
     };
-    // The target is at 134 degrees, which the axes would reach over the zenith too.
+    // The target is at 134 degrees. The axes could also reach it over the zenith.
     (*azimuth_from_deg, *elevation_to_deg) = (180.0, 90.0);
     let said = states::sentence(&model);
     assert!(said.contains("NOAA 20, which is out of reach. Waiting at 134°"), "{said}");
@@ -223,7 +223,7 @@ fn the_selected_pass_and_the_later_ones_are_followed() {
     assert_eq!(fixed.follow(antenna, floor).passes, []);
 }
 
-/// Commands after choosing this entry of the menu beside Track.
+/// Chooses this entry of the menu beside Track, and returns the commands.
 fn chosen(size: [f32; 2], antenna: Antenna, entry: &str) -> Vec<UiCommand> {
     let mut snapshot = states::holding();
     snapshot.link = LinkState::Up { start: Instant::now() };

@@ -1,5 +1,5 @@
-//! A make that the library does not know: described and driven here, it is read from the
-//! station file, set up in the form and moved.
+//! Make that the library does not know. The tests describe and drive it here, read it from the
+//! station file, set it up in the form and move it.
 
 mod lever;
 
@@ -29,7 +29,7 @@ use crate::window_stories::{
     rig::{self, SIZES, asked, says, settle},
 };
 
-/// Longer than any step here takes.
+/// Time limit of any wait in these tests.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 fn all_specs() -> Vec<&'static ControllerSpec> {
@@ -75,7 +75,7 @@ fn its_antenna_is_read_from_the_station_file_and_comes_back_as_it_was_saved() {
     let again = station::load(&path, &all_specs()).unwrap();
     assert_eq!(again.station, station);
     let places: Vec<_> = again.notes.iter().map(|note| note.place.as_str()).collect();
-    // The gear is repaired; the rest still stands in the file.
+    // The save repaired the entry of the gear; the other bad entries still stand in the file.
     assert_eq!(places, ["antenna[0].connection.drive.oil", "antenna[0].connection.length"]);
 
     let known = station::load(&path, SPECS).unwrap();

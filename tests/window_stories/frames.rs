@@ -1,4 +1,4 @@
-//! How many frames one input costs.
+//! Number of frames that one input costs.
 
 use std::sync::{
     Arc,
@@ -14,7 +14,7 @@ use crate::window_stories::{
     states,
 };
 
-/// A window, and whether another frame is due at once.
+/// Returns a window, and a flag that is `true` if another frame is due at once.
 fn counted() -> (Window, Arc<AtomicBool>) {
     let mut window = rig::window(LARGE, rig::model(states::manual()));
     let due = Arc::<AtomicBool>::default();
@@ -26,7 +26,8 @@ fn counted() -> (Window, Arc<AtomicBool>) {
     (window, due)
 }
 
-/// The frames until none is due; each takes the next of `inputs` as long as there are any.
+/// Draws frames until none is due, each with the next of `inputs` while there are any. Returns
+/// their number.
 fn drawn((window, due): &mut (Window, Arc<AtomicBool>), inputs: &[&[Event]]) -> usize {
     let mut inputs = inputs.iter();
     let mut frames = 0;
@@ -62,7 +63,7 @@ fn button(pos: Pos2, pressed: bool) -> Event {
 fn a_key_costs_the_frame_that_takes_it_and_the_one_that_shows_what_came_of_it() {
     let mut counted = counted();
     assert_eq!(drawn(&mut counted, &[&[]]), 1);
-    // F9 means nothing here.
+    // F9 has no function here.
     for quick in [Key::F9, Key::ArrowDown] {
         assert_eq!(drawn(&mut counted, &[&[key(quick, true), key(quick, false)]]), 2);
         assert_eq!(drawn(&mut counted, &[&[key(quick, true)], &[key(quick, false)]]), 2);

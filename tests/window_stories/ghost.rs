@@ -1,4 +1,4 @@
-//! Looking at a direction before the antenna is sent there: a click in the sky, or the fields.
+//! Preview of a direction before the antenna goes there: by a click in the sky, or by the fields.
 
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ fn antenna(command: Command) -> UiCommand {
     UiCommand::antenna(AntennaId(1), command)
 }
 
-/// Clicks in the south, where nothing is, and returns the direction that is judged.
+/// Clicks in the empty south, and returns the direction that Azel judges.
 fn click_the_south(window: &mut Window) -> Pointing {
     let at = zenith(window) + vec2(0.0, 60.0);
     window.drag_at(at);
@@ -38,7 +38,7 @@ fn click_the_south(window: &mut Window) -> Pointing {
     *to
 }
 
-/// The session answers.
+/// Gives the session's answer to the window.
 fn answer(window: &mut Window, to: Pointing, way: Result<Way, Refusal>) {
     let shown = &mut window.state_mut().model.shown_mut().antennas[0].snapshot;
     let preview = Some(Arc::new(Preview { target: to, way }));
@@ -95,7 +95,7 @@ fn enter_sends_what_was_clicked_and_esc_drops_it() {
     answer(&mut window, to, Ok(clear()));
     assert!(window.get_by_role_and_label(Role::Button, "Point here").is_focused());
     window.key_press(Key::Escape);
-    // The window sends STOP besides; the view moves nothing.
+    // The window sends STOP as well; the view moves nothing.
     assert_eq!(asked(&mut window), [antenna(Command::Preview(None))]);
     assert_eq!(note(&window), None);
 

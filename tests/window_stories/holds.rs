@@ -38,7 +38,8 @@ fn shows(snapshot: Snapshot) -> Model {
 #[test]
 fn a_jog_without_a_dead_man_is_allowed_by_holding_only() {
     let unguarded = || Snapshot { intent: Intent::Manual, unguarded: true, ..states::holding() };
-    // No question before a jog was refused for this reason, or once there is a confirmation.
+    // Azel asks no question before it has refused a jog for this reason, or once the operator has
+    // confirmed.
     for (snapshot, is_refused) in
         [(unguarded(), false), (Snapshot { unguarded: false, ..unguarded() }, true)]
     {

@@ -1,4 +1,4 @@
-//! Keep-outs: added, drawn, typed, undone, compared with the passes and saved.
+//! Keep-outs that the operator adds, draws, types, undoes, compares with the passes and saves.
 
 use std::{fs, sync::Arc};
 
@@ -37,7 +37,7 @@ pub(crate) fn show_table(window: &mut Window) {
     settle(window);
 }
 
-/// Commands other than requests for the effect of the draft.
+/// Returns the commands other than requests for the effect of the draft.
 pub(crate) fn asked(window: &mut Window) -> Vec<UiCommand> {
     let mut commands = rig::asked(window);
     commands.retain(|command| !matches!(command, UiCommand::ShowEffects(_)));
@@ -55,7 +55,7 @@ fn page_of(size: [f32; 2], mut model: Model) -> Window {
     window
 }
 
-/// The page of a station with a mast in the east.
+/// Returns the page of a station with a mast in the east.
 pub(crate) fn page(size: [f32; 2]) -> Window {
     let mut model = rig::model(states::holding());
     Arc::make_mut(&mut model.shown_mut().station).keep_outs = vec![mast()];
@@ -160,7 +160,7 @@ fn a_corner_is_dragged_and_the_drag_is_undone_and_done_again() {
         choose(&mut window, "mast");
         show_plot(&mut window);
         let from = place(&window, "Corner 2 of mast");
-        // To the north-east, where the plot is free.
+        // Move to the north-east, where the plot is free.
         let to = from + egui::vec2(0.0, -40.0);
         drag(&mut window, from, to, Modifiers::NONE);
         assert!(place(&window, "Corner 2 of mast").distance(to) < 4.0);
@@ -456,7 +456,7 @@ fn a_mask_is_read_from_a_file_and_written_to_one() {
 
 #[test]
 fn what_holds_is_drawn_in_the_sky_plot() {
-    // Drawn without a missing glyph or a panic, also around the zenith.
+    // The plot draws keep-outs without a missing glyph or a panic, also around the zenith.
     let cap = KeepOut::zone_of(&[(0.0, 80.0), (180.0, 80.0), (360.0, 80.0)]).unwrap();
     for size in rig::sizes() {
         let mut model = rig::model(states::holding());
@@ -474,7 +474,7 @@ fn the_margin_is_the_beam_the_overshoot_and_what_is_added() {
     Arc::make_mut(&mut model.shown_mut().station).keep_outs = vec![mast()];
     let mut window = page_of(LARGE, model);
     choose(&mut window, "mast");
-    // With a Satrak of 3 degrees per second.
+    // The antenna is a Satrak of 3 degrees per second.
     window.get_by_label("°   beam 0.44° + overshoot 1.2° + 1.0°");
 }
 

@@ -1,5 +1,5 @@
-//! Every view as an image. `UPDATE_SNAPSHOTS=1 cargo test --test azel images` accepts new ones; where
-//! an image differs, `NAME.diff.png` and `NAME.new.png` lie beside it.
+//! Every view as an image. `UPDATE_SNAPSHOTS=1 cargo test --test azel images` accepts new images.
+//! If an image differs, the test writes `NAME.diff.png` and `NAME.new.png` beside it.
 
 use std::{fs, path::Path};
 
@@ -31,11 +31,12 @@ const VIEWS: [&str; 9] = [
     "Set-up, antennas",
 ];
 
-/// States that look unlike those of [`VIEWS`].
+/// States that look different from those of [`VIEWS`].
 const STATES: [&str; 5] =
     ["Operate, jog", "Operate, link lost", REPLAY, "Alarms", "Horizon and keep-outs"];
 
-/// A replay has its own present and states its day once, so it is no scene of every view.
+/// Name of the replay scene. A replay has its own present and states its day once, so the checks of
+/// every view leave it out.
 const REPLAY: &str = "Operate, replay";
 
 fn options() -> SnapshotOptions {
@@ -50,7 +51,7 @@ fn image(name: &str, size: [f32; 2], theme: ThemeName) -> RgbaImage {
     window.render().unwrap()
 }
 
-/// Such as `operate-jog-1024x640-dark`.
+/// Returns a name such as `operate-jog-1024x640-dark`.
 fn file_name(scene: &str, [width, height]: [f32; 2], theme: ThemeName) -> String {
     let words: Vec<String> = scene
         .split(|letter: char| !letter.is_alphanumeric())
@@ -64,7 +65,7 @@ fn accepts() -> bool {
     std::env::var_os("UPDATE_SNAPSHOTS").is_some()
 }
 
-/// Writes an accepted image anew, in half of the bytes that the library takes for it.
+/// Writes an accepted image again, in half of the bytes that the library takes for it.
 fn write_small(image: &RgbaImage, name: &str) {
     let file = fs::File::create(Path::new(FOLDER).join(name).with_extension("png")).unwrap();
     let encoder = PngEncoder::new_with_quality(file, CompressionType::Best, FilterType::Adaptive);
@@ -116,7 +117,7 @@ fn further_states_and_the_night() {
 #[test]
 fn a_panel_that_is_moved_by_a_pixel_is_another_image() {
     if accepts() {
-        // Then the library accepts this one too.
+        // In this mode, the library would accept the moved image too.
         return;
     }
     let name = file_name(VIEWS[0], SMALL, ThemeName::Dark);
@@ -126,7 +127,7 @@ fn a_panel_that_is_moved_by_a_pixel_is_another_image() {
     let options = SnapshotOptions::new().output_path(folder.path());
     let drawn = image(VIEWS[0], SMALL, ThemeName::Dark);
     try_image_snapshot_options(&drawn, name.as_str(), &options).unwrap();
-    // The column of passes, one pixel to the right.
+    // Move the column of passes one pixel to the right.
     let mut moved = drawn.clone();
     for (x, y) in (301..400).rev().flat_map(|x| (100..600).map(move |y| (x, y))) {
         moved.put_pixel(x, y, *drawn.get_pixel(x - 1, y));

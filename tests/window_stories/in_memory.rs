@@ -1,5 +1,5 @@
-//! The real app on a station whose units are in memory. The window has a handle, and
-//! cannot tell what is behind it.
+//! The real app on a station whose units are in memory. The window has only a handle, and cannot
+//! tell a unit in memory from a real one.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ use crate::window_stories::{
     unit::{RealWindow, open, step_until},
 };
 
-/// A unit in memory, and the connections through which a station reaches it.
+/// Returns a unit in memory, and the connections through which a station reaches it.
 fn unit() -> (Control, Outside) {
     let clock = Clock::system();
     let control = Control::on_clock(&Options::new(rig::station().site, clock.utc()), clock.clone());
@@ -63,7 +63,7 @@ fn a_window_drives_a_station_through_its_handle_alone() {
     step_until(&mut window, "a measured angle", |model| measured(model).is_some());
     assert!(!window.state().model().demo);
 
-    // By hand, until the release.
+    // The antenna moves by hand until the release.
     window.get_by_role_and_label(Role::RadioButton, "Manual").click();
     step_until(&mut window, "manual", |model| intent(model) == Some(Intent::Manual));
     let key = window.get_by_label("Jog X+").rect().center();
@@ -81,7 +81,7 @@ fn a_window_drives_a_station_through_its_handle_alone() {
     window.event(button(false));
     step_until(&mut window, "it stands", |model| !moves(model));
 
-    // A position, and STOP on the way.
+    // The antenna goes to its park position, and STOP ends the motion.
     window.get_by_role_and_label(Role::RadioButton, "Park").click();
     step_until(&mut window, "a frame", |_| true);
     press(&mut window, Key::Escape, true);
@@ -94,7 +94,7 @@ fn a_window_drives_a_station_through_its_handle_alone() {
     assert!(!unit.state().is_moving);
     assert_eq!(intent(window.state().model()), Some(Intent::Standby));
 
-    // The console, and a failure.
+    // The console opens, and the link fails.
     let modifiers = Modifiers::COMMAND;
     let key = Key::Num5;
     for pressed in [true, false] {

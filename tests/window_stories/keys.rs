@@ -1,4 +1,4 @@
-//! Keys and their list.
+//! Keys and the list of keys.
 
 use std::{
     fs,
@@ -29,7 +29,7 @@ use crate::window_stories::{
     sky_time, states,
 };
 
-/// A window in which every key has something to do.
+/// Returns a window in which every key has something to do.
 fn opened(size: [f32; 2]) -> Window {
     let mut model = rig::model(states::manual());
     for name in ["Mast", "Roof", "Field"] {
@@ -41,13 +41,13 @@ fn opened(size: [f32; 2]) -> Window {
     model.shown_mut().alarms.raise(None, AlarmKind::Elements("the file is empty".to_owned()), now);
     model.selected = model.pass_lists.favourites.passes.get(2).map(PredictedPass::key);
     let mut window = rig::window(size, model);
-    // One step from the ends of the choices.
+    // Go one step away from the end of the choices.
     window.key_press(Key::Plus);
     asked(&mut window);
     window
 }
 
-/// All texts of the window.
+/// Returns all texts of the window.
 fn all_words(window: &Window) -> Vec<String> {
     window
         .query_all(egui_kittest::kittest::By::new())
@@ -126,13 +126,13 @@ fn every_key_of_the_list_does_something() {
             if binding.place == KeyScope::Map {
                 window.state_mut().model.view = View::Map;
                 window.state_mut().model.refresh_sky();
-                // One step from the ends of what can be chosen.
+                // Go one step away from the end of the choices.
                 window.key_press(Key::Plus);
                 asked(&mut window);
             }
             if binding.place == KeyScope::Plan {
                 window = plan::view(SMALL);
-                // Each key changes what stands there before.
+                // Set the other choice first, so that the key changes the choice.
                 let take = if key == Key::V { Take::Always } else { Take::Never };
                 let model = &mut window.state_mut().model;
                 let pass = model.selected_pass().unwrap();
@@ -151,7 +151,7 @@ fn every_key_of_the_list_does_something() {
                 window = record::to_correct(SMALL);
                 window.state_mut().model.shown_mut().record = Some(Arc::default());
                 asked(&mut window);
-                // The last row has none after it.
+                // No row follows the last one.
                 if key == Key::ArrowUp {
                     window.key_press(Key::ArrowDown);
                     asked(&mut window);
@@ -200,7 +200,7 @@ const VIEWS: [View; 9] = [
     View::Setup,
 ];
 
-/// Returns `true` if the keys work in the view without the focus on a control of their own.
+/// Returns `true` if the key works in the view without the focus on a certain control.
 fn is_live(binding: &Binding, view: View) -> bool {
     match binding.place {
         KeyScope::Everywhere | KeyScope::Views => true,
@@ -234,7 +234,7 @@ fn no_key_has_two_effects_in_any_view() {
     }
 }
 
-/// A key in the code of a control, which takes it while it has the focus.
+/// Key in the code of a control, which takes the key while it has the focus.
 #[derive(Debug)]
 struct Taken {
     /// File below the folder of the views.
@@ -269,7 +269,7 @@ fn keys_of_controls() -> Vec<Taken> {
         for (at, _) in code.match_indices("Key::") {
             let (before, named) = (&code[..at], &code[at + "Key::".len()..]);
             let name: String = named.chars().take_while(char::is_ascii_alphanumeric).collect();
-            // Labels of drawings have keys of their own, which are none of the keyboard's.
+            // Labels of drawings have their own keys, which are not on the keyboard.
             let Some(key) = Key::ALL.iter().find(|key| format!("{key:?}") == name) else {
                 continue;
             };
@@ -280,9 +280,9 @@ fn keys_of_controls() -> Vec<Taken> {
     keys
 }
 
-/// The views in which a control of this file can have the focus.
+/// Returns the views in which a control of this file can have the focus.
 fn views_of(place: &str) -> Vec<View> {
-    // The other lists take the arrows alone.
+    // The other lists take only the arrows.
     if place == "widgets/list.rs" {
         return vec![View::Elements, View::Console];
     }
@@ -302,7 +302,7 @@ fn views_of(place: &str) -> Vec<View> {
 
 #[test]
 fn no_control_takes_a_key_that_means_something_else_in_its_view() {
-    // In a view they work only while nothing has the focus.
+    // In a view, these keys work only while no control has the focus.
     let arrows = [Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown];
     let unfocused = [&arrows[..], &[Key::Space, Key::Enter]].concat();
     let found = keys_of_controls();
@@ -319,21 +319,21 @@ fn no_control_takes_a_key_that_means_something_else_in_its_view() {
 
 #[test]
 fn every_key_of_a_control_is_in_the_list() {
-    /// Keys that every table, row and drawing of a desktop has.
+    /// Keys with a common meaning in every table, row and drawing of a desktop.
     const USUAL: [Key; 10] = [
         Key::Home,
         Key::End,
         Key::PageUp,
         Key::PageDown,
-        // The menu of what has the focus.
+        // These keys open the menu of the focused control.
         Key::F10,
         Key::Menu,
-        // With Ctrl: all rows, and again what was undone.
+        // With Ctrl, these keys select all rows and redo a change.
         Key::A,
         Key::Y,
-        // As Delete.
+        // This key acts as Delete.
         Key::Backspace,
-        // The list says "Space, F, 1, 5" for 1 to 5.
+        // The list of keys names only 1 and 5 of the keys 1 to 5.
         Key::Num2,
     ];
     for Taken { place, key, .. } in keys_of_controls() {
@@ -464,7 +464,7 @@ fn up_and_down_lead_from_pass_to_pass_wherever_no_control_has_the_focus() {
 
 #[test]
 fn a_pass_that_is_selected_elsewhere_is_scrolled_into_view() {
-    /// Bottom of the list in a wide and low window.
+    /// Bottom of the list in a wide and low window, points.
     const BOTTOM: f32 = 560.0;
     let mut window = rig::window([1440.0, 640.0], rig::model(states::holding()));
     let passes = window.state().model.pass_lists.favourites.passes.clone();
@@ -487,7 +487,7 @@ fn a_pass_that_is_selected_elsewhere_is_scrolled_into_view() {
         let row = list(&window, index).expect("its row is there");
         assert!(row.top() >= 87.0 && row.bottom() <= BOTTOM + 1.0, "{index}: {row:?}");
     }
-    // The operator's scroll position stays.
+    // The list keeps the operator's scroll position.
     rig::scroll(&mut window, egui::pos2(230.0, 400.0), 5000.0);
     let row = list(&window, last).expect("its row is partly there");
     assert!(row.bottom() > BOTTOM, "{row:?}");

@@ -34,7 +34,7 @@ fn lock_out() -> LockOut {
     LockOut { operator: "Ada".to_owned(), reason: "gear box open".to_owned(), start: since }
 }
 
-/// `snapshot` with a lock-out.
+/// Returns `snapshot` with a lock-out.
 pub(crate) fn locked(snapshot: Snapshot) -> Snapshot {
     Snapshot { lock_out: Some(lock_out()), ..snapshot }
 }
@@ -157,7 +157,7 @@ fn until_it_is_read_back_it_is_being_locked_out() {
     }
 }
 
-/// A window in which the operator has held the lock-out button.
+/// Opens a window and locks the antenna out, as Ada, by holding the button.
 fn locked_out_by_ada(path: &std::path::Path, clock: azel::clock::Clock) -> RealWindow {
     let mut window = open(path, clock);
     let is_up = |model: &azel::model::Model| {

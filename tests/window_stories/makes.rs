@@ -19,19 +19,19 @@ use crate::window_stories::{
     states,
 };
 
-/// A Rotator Genius that turns azimuth and elevation.
+/// Returns a Rotator Genius that turns azimuth and elevation.
 pub(crate) fn pair() -> Antenna {
     Antenna::genius("Genius", "192.168.1.250:9006")
 }
 
-/// A Rotator Genius of which one rotator turns the antenna.
+/// Returns a Rotator Genius of which one rotator turns the antenna.
 pub(crate) fn alone() -> Antenna {
     let mut antenna = Antenna::genius("Mast", "192.168.1.250:9006");
     antenna.connection.put(&ROTATORS, Rotators::First).unwrap();
     antenna
 }
 
-/// An RC2000C whose azimuth axis turns by more than a turn.
+/// Returns an RC2000C whose azimuth axis turns by more than a full turn.
 pub(crate) fn rc2000c() -> Antenna {
     let mut antenna = Antenna::rc2000c("RC2000C", "192.168.1.30:4001");
     if let Mount::AzEl { azimuth_to_deg, .. } = &mut antenna.mount {
@@ -40,7 +40,7 @@ pub(crate) fn rc2000c() -> Antenna {
     antenna
 }
 
-/// The station with `config` as its antenna in the state of `snapshot`.
+/// Returns the station with `config` as its antenna in the state of `snapshot`.
 pub(crate) fn model(config: Antenna, snapshot: Snapshot) -> Model {
     let mut model = rig::model(quiet());
     Arc::make_mut(&mut model.shown_mut().station).antennas = vec![config.clone()];
@@ -68,7 +68,7 @@ fn standing(intent: Intent, measured: Measured) -> Snapshot {
     snapshot
 }
 
-/// Both rotators stand and report themselves.
+/// Returns the state of a pair whose rotators stand and report themselves.
 pub(crate) fn pair_at(intent: Intent) -> Snapshot {
     let mut snapshot = standing(intent, at(Some(43.0), Some(12.0)));
     snapshot.state.readings = Arc::new([
@@ -78,8 +78,8 @@ pub(crate) fn pair_at(intent: Intent) -> Snapshot {
     snapshot
 }
 
-/// The rotator of the antenna and the other one stand; the other one has no sensor if
-/// `sees_other` is false.
+/// Returns the state of two standing rotators, of which one turns the antenna. The other one has no
+/// sensor if `sees_other` is false.
 pub(crate) fn alone_at(intent: Intent, sees_other: bool) -> Snapshot {
     let mut measured = at(Some(43.0), None);
     measured.axes[1].angle_deg = sees_other.then_some(200.0);
@@ -112,12 +112,12 @@ fn told() -> Arc<[Reading]> {
     ])
 }
 
-/// An RC2000C without a connection.
+/// Returns the state of an RC2000C without a connection.
 pub(crate) fn rc2000c_off() -> Snapshot {
     Snapshot { link: LinkState::Off, ..quiet() }
 }
 
-/// An RC2000C at standstill, calibrated.
+/// Returns the state of a calibrated RC2000C at standstill.
 pub(crate) fn rc2000c_at(intent: Intent) -> Snapshot {
     let mut snapshot = standing(intent, at(Some(370.0), Some(42.4)));
     snapshot.state.readings = told();
@@ -126,7 +126,7 @@ pub(crate) fn rc2000c_at(intent: Intent) -> Snapshot {
     snapshot
 }
 
-/// An RC2000C with a drive that does not turn, at its limit switch.
+/// Returns the state of an RC2000C at its limit switch, with a drive that does not turn.
 pub(crate) fn rc2000c_alarmed(intent: Intent) -> Snapshot {
     let mut snapshot = rc2000c_at(intent);
     snapshot.state.motion_lock = Some(true);
@@ -140,7 +140,7 @@ pub(crate) fn rc2000c_alarmed(intent: Intent) -> Snapshot {
     snapshot
 }
 
-/// An RC2000C at standstill, not calibrated.
+/// Returns the state of an RC2000C at standstill without a calibration.
 pub(crate) fn rc2000c_uncalibrated(intent: Intent) -> Snapshot {
     let mut snapshot = rc2000c_at(intent);
     snapshot.state.measured = Some(at(None, None));

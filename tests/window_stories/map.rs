@@ -1,4 +1,4 @@
-//! The map: the satellites over the globe.
+//! Map view: the satellites over the globe.
 
 use std::sync::Arc;
 
@@ -18,9 +18,9 @@ use crate::window_stories::{
     states,
 };
 
-/// A favourite with a pass after the present one.
+/// Catalog number of a favourite with a pass after the current one.
 const METEOR: u32 = 59_051;
-/// The largest common window, besides the usual one and the smallest.
+/// Largest common window size, points, besides the default one and the smallest.
 const FULL: [f32; 2] = [1920.0, 1080.0];
 
 fn model() -> Model {
@@ -40,7 +40,7 @@ fn select(model: &mut Model, number: u32) {
     model.refresh_sky();
 }
 
-/// The names of the nodes of this role that begin so.
+/// Returns the names of the nodes of this role that contain `contains`.
 fn named(window: &Window, role: Role, contains: &str) -> Vec<String> {
     let labels = window.query_all_by_role(role).filter_map(|node| node.accesskit_node().label());
     labels.filter(|label| label.contains(contains)).collect()
@@ -89,7 +89,7 @@ fn the_map_and_the_table_name_every_satellite_and_the_station() {
     assert!(says(&window, "Station Şile 1, 41.0° N, 29.2° E"));
     let rows = named(&window, Role::ListBoxOption, "azimuth");
     assert_eq!(rows.len(), 5, "{rows:?}");
-    // Highest first.
+    // The highest satellite comes first.
     assert!(rows[0].starts_with("NOAA 20, "), "{rows:?}");
     assert!(rows[0].contains("next until"), "{rows:?}");
     for of in &window.state().model.globe.satellites {
@@ -160,7 +160,7 @@ fn the_globe_agrees_with_the_sky() {
     };
     assert!((50.0..51.0).contains(&minutes(first.time, model.now)));
     assert!((149.0..151.0).contains(&minutes(model.now, last.time)));
-    // Noon in summer in Istanbul: it is day.
+    // The time is noon in summer in Istanbul, so the globe shows day there.
     assert!(!globe.night.unwrap().contains(here));
     assert!(globe.subsolar.unwrap().latitude.degrees() > 10.0);
 }
@@ -249,7 +249,7 @@ fn a_double_click_opens_the_sky_plot() {
     let at = window.get_by_role_and_label(Role::ListBoxOption, &label).rect().center();
     window.hover_at(at);
     settle(&mut window);
-    // In one frame: the frames of a story are too slow for a double click.
+    // Send both clicks in one frame, because the frames of a story are too slow for a double click.
     let press = |pressed| Event::PointerButton {
         pos: at,
         button: PointerButton::Primary,
@@ -282,7 +282,7 @@ fn the_selected_satellite_stands_in_the_inspector() {
         assert!(says(&window, "Next at Şile 1"));
         let passes = named(&window, Role::ListBoxOption, "Pass at ");
         assert!(!passes.is_empty());
-        // In a small window they have to be scrolled to.
+        // A small window needs scrolling to show the passes.
         rig::scroll(&mut window, pos2(size[0] - 100.0, 400.0), -2000.0);
         window.get_by_role_and_label(Role::ListBoxOption, &passes[0]).click();
         let asked_for = asked(&mut window);
@@ -361,7 +361,7 @@ fn the_arrows_lead_from_satellite_to_satellite() {
         let wanted: Vec<_> = next.map(UiCommand::SelectSatellite).into_iter().collect();
         assert_eq!(asked(&mut window), wanted, "{key:?}");
     }
-    // Without a selected satellite they begin with the highest that can be selected.
+    // Without a selected satellite, the keys begin with the highest selectable one.
     let mut model = model();
     model.selected = None;
     model.refresh_sky();
@@ -373,7 +373,7 @@ fn the_arrows_lead_from_satellite_to_satellite() {
     assert_eq!(asked(&mut window), [UiCommand::SelectSatellite(highest)]);
 }
 
-/// The places of the marks on the map, in the order of the globe.
+/// Returns the places of the marks on the map, in the order of the globe.
 fn marks(window: &Window) -> Vec<egui::Rect> {
     let name = |of: &azel::model::globe::GlobeSatellite| {
         format!("{} on the map", of.satellite.short_name())
@@ -416,7 +416,7 @@ fn keys_wheel_and_drag_move_the_map() {
 fn the_place_under_the_pointer_is_told() {
     let mut window = view(LARGE);
     let map = window.get_by_role(Role::Canvas).rect();
-    // 60 degrees west and 30 degrees north of the middle, in the sea.
+    // Point 60 degrees west and 30 degrees north of the middle, in the sea.
     window.hover_at(pos2(map.center().x - map.width() / 6.0, map.center().y - map.width() / 12.0));
     settle(&mut window);
     assert!(says(&window, "Pointer at 30.0° N, 60.0° W"));
@@ -442,7 +442,7 @@ fn layers_are_shown_and_hidden_and_kept() {
         settle(&mut window);
         assert!(window.query_by_label("Grid").is_none());
     }
-    // In a wide window the first four stand in the bar as well.
+    // A wide window has the first four in the bar as well.
     let mut window = view(LARGE);
     for name in ["Tracks", "Footprints", "Terminator", "Names"] {
         window.get_by_role_and_label(Role::CheckBox, name).click();
@@ -462,7 +462,7 @@ fn only_what_antennas_track_is_shown_where_that_is_wanted() {
     window.get_by_role_and_label(Role::RadioButton, "Tracked").click();
     settle(&mut window);
     let left = named(&window, Role::ListBoxOption, "on the map");
-    // The tracked and the selected one.
+    // The tracked satellite and the selected one stay.
     assert_eq!(left.len(), 2, "{left:?}");
     assert!(left.iter().any(|name| name.starts_with("NOAA 20")), "{left:?}");
     assert!(left.iter().any(|name| name.starts_with("ISS")), "{left:?}");

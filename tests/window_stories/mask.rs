@@ -1,5 +1,5 @@
-//! Hills around the station: typed in the form, shown in the plot, and mentioned for the
-//! selected pass.
+//! Hills around the station: the operator types them in the form, and Azel shows them in the plot
+//! and mentions them for the selected pass.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use crate::window_stories::{
 
 const HILLS: &str = "0 2\n90 14\n180 6\n270 9";
 
-/// The page of the horizon, with its form in view.
+/// Returns the page of the horizon, with its form in view.
 fn page(size: [f32; 2]) -> Window {
     let mut window = form(size);
     horizon::open(&mut window);

@@ -58,7 +58,7 @@ fn a_bar_and_a_row_offer_what_can_be_done_with_their_pass() {
         let unmark =
             contract::Command::SetFavourites { numbers: vec![METEOR_M2_4], is_favourite: false };
         assert_eq!(choose(&mut window, "Remove from favourites"), [UiCommand::Station(unmark)]);
-        // A track is asked for first.
+        // Azel asks before it tracks.
         window.get_by_label(place).click_secondary();
         assert_eq!(choose(&mut window, "Track with Satrak…"), []);
         window.get_by_label_contains("Track METEOR-M2 4 with Satrak? The antenna moves");

@@ -1,4 +1,5 @@
-//! Notices through the desktop: set in Preferences, and noted in the window.
+//! Notices through the desktop, which the operator sets in Preferences, and their notes in the
+//! window.
 
 use std::sync::Arc;
 
@@ -19,7 +20,7 @@ use crate::window_stories::{
     states,
 };
 
-/// The page of notices.
+/// Returns the page of notices.
 fn page(size: [f32; 2]) -> Window {
     let mut window = form(size);
     window.get_by_role_and_label(Role::RadioButton, "Alarms and sounds").click();
@@ -155,7 +156,7 @@ fn the_desktop_is_tried_without_saving() {
 
 const NOTE: &str = "ISS AOS in 5:00 at 11:20:30Z, max 54°, Satrak can track it.";
 
-/// A window with a reminder of the ISS, in a view.
+/// Returns a window with a reminder of the ISS, in a view.
 fn reminded(size: [f32; 2], view: View) -> (Window, Reminder) {
     let mut model = rig::model(states::holding());
     let reminder = Reminder {
@@ -202,7 +203,7 @@ fn the_note_leads_to_its_pass_and_can_be_closed() {
         window.get_by_label("Close the reminder of ISS").click();
         settle(&mut window);
         assert!(!says(&window, NOTE));
-        // The next pass has a note of its own.
+        // The next pass has its own note.
         let next = Reminder { pass: (25_544, reminder.aos() - 1.second()), ..reminder };
         window.state_mut().model.shown_mut().reminders = Arc::new(vec![next]);
         settle(&mut window);

@@ -1,4 +1,4 @@
-//! Offsets while tracking.
+//! Offsets of a running track.
 
 use std::sync::Arc;
 
@@ -44,7 +44,7 @@ fn step(offset: Offset) -> UiCommand {
     change(OffsetChange::Step(offset))
 }
 
-/// A window whose antenna tracks with these offsets, with the section open.
+/// Returns a window whose antenna tracks with these offsets, with the section open.
 fn opened(size: [f32; 2], offsets: TrackOffsets, line: &str) -> Window {
     let mut window = rig::window(size, following::tracking(offsets));
     window.get_by_role_and_label(Role::Button, line).click();
@@ -90,7 +90,7 @@ fn each_offset_has_its_value_and_keys_for_less_and_more() {
         settle(&mut window);
         let whole = step(Offset::Azimuth(deg(1.0)));
         assert_eq!(click(&mut window, "Azimuth offset, more"), std::slice::from_ref(&whole));
-        // The keys take the step of the card, too.
+        // The keys also use the step of the card.
         window.key_press_modifiers(Modifiers::COMMAND, Key::ArrowRight);
         assert_eq!(asked(&mut window), [whole]);
     }
@@ -184,7 +184,8 @@ fn without_a_link_they_are_shown_and_locked_with_the_reason() {
     assert!(window.query_all_by_label("Locked: the unit does not answer.").next().is_some());
 }
 
-/// An on-board track with these offsets added, of a unit that held -0.5 degrees of azimuth before.
+/// Returns an on-board track with these offsets added, of a unit that held -0.5 degrees of azimuth
+/// before.
 fn on_board(added: TrackOffsets, left: Option<LeftOffsets>) -> Snapshot {
     let mut snapshot = states::tracking(0.04);
     let held = azel::device::Offsets { azimuth_deg: -0.5, ..azel::device::Offsets::default() };
@@ -200,7 +201,7 @@ fn on_board(added: TrackOffsets, left: Option<LeftOffsets>) -> Snapshot {
     snapshot
 }
 
-/// Opens the section, where it is not open already.
+/// Opens the section unless it is open already.
 fn unfold(window: &mut Window, line: &str) {
     if window.query_by_label("Azimuth offset, more").is_none() {
         window.get_by_role_and_label(Role::Button, line).click();

@@ -131,7 +131,7 @@ fn a_missed_satellite_is_told_with_the_likeliest_cause() {
     assert!(said.contains("check its drives, and the age of its elements"), "{said}");
 }
 
-/// Sends these payloads to the unit as another client, one after the other.
+/// Sends the payloads to the unit from another client, one after the other.
 fn by_another(unit: &Unit, payloads: &[&str]) {
     let mut stream = TcpStream::connect(unit.address).unwrap();
     let mut lines = BufReader::new(stream.try_clone().unwrap()).lines();
@@ -142,8 +142,7 @@ fn by_another(unit: &Unit, payloads: &[&str]) {
     }
 }
 
-/// Lets the unit track a satellite of its file as another client, five minutes after
-/// `utc`.
+/// Lets another client start a track of a satellite from the unit's file, five minutes after `utc`.
 fn track_by_another(unit: &Unit, satellite: &str, utc: Timestamp) {
     let text = |at| TimeZone::UTC.to_datetime(at).strftime("%-H,%-M,%-S,%-d,%-m,%Y").to_string();
     let (from, until) = (add_seconds(utc, 300.0), add_seconds(utc, 900.0));

@@ -1,4 +1,4 @@
-//! Files are opened by a typed path where the desktop shows no dialogs.
+//! Files that open by a typed path, because the desktop shows no dialogs.
 
 use std::{fs, path::Path};
 
@@ -56,7 +56,7 @@ fn without_a_dialog_of_the_desktop_the_path_of_a_file_to_open_is_typed() {
     }
 }
 
-/// Types `path` once it is asked for.
+/// Types `path` once Azel asks for the path.
 fn type_path(window: &mut RealWindow, path: &Path) {
     wait_until("the path is asked for", || {
         window.step();

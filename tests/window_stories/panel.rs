@@ -1,5 +1,5 @@
-//! Driving antennas whose capabilities differ from a Satrak's: the controls on the card
-//! and their commands.
+//! Control of antennas whose capabilities differ from a Satrak's: the controls on the card and
+//! their commands.
 
 use std::sync::Arc;
 
@@ -35,7 +35,7 @@ fn type_into(window: &mut Window, field: &str, words: &str) {
     settle(window);
 }
 
-/// Holds a jog key for some frames.
+/// Holds a jog key for some frames, and returns the commands.
 fn hold(window: &mut Window, key: &str) -> Vec<UiCommand> {
     let key = window.get_by_label(key).rect().center();
     window.drag_at(key);

@@ -1,4 +1,4 @@
-//! The card of every make fits every window in every theme.
+//! Layout of the card of every make, which must fit every window in every theme.
 
 use std::collections::HashMap;
 
@@ -24,7 +24,7 @@ use crate::window_stories::{
     states,
 };
 
-/// The lines at the end of the card may have to be scrolled to.
+/// Starts of lines at the end of the card that may need scrolling.
 const SCROLLED: [&str; 5] = ["Travel: ", "Readings: ", "Faults: ", "More: ", "Details"];
 
 fn cases() -> Vec<(Antenna, Snapshot)> {
@@ -82,7 +82,7 @@ fn nothing_of_the_card_lies_on_something_else_when_all_is_unfolded() {
             }
             settle(&mut window);
         }
-        // Scrolled lines are under the upper part of the card.
+        // The upper part of the card covers scrolled lines.
         rig::scroll(&mut window, pos2(870.0, rig::SMALL[1] - 8.0), 5000.0);
         nothing_overlaps(&window);
     }
@@ -121,12 +121,12 @@ fn a_fold_that_is_opened_at_the_lower_end_is_brought_into_sight() {
     let bottom = rig::SMALL[1];
     let model = makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Manual));
     let [first, ..] = model.antennas[0].variant().actions else { panic!("no actions") };
-    // The readings fit; the actions do not, and begin at the top.
+    // The readings fit. The actions do not fit, and begin at the top.
     let field = format!("{}: {}", first.label, first.fields[0].label);
     let mut window = rig::window(rig::SMALL, model);
     for (fold, inside) in [("Readings: ", "Satellite: "), ("More: ", &field)] {
         let line = |window: &Window| window.get_by_label_contains(fold).rect();
-        // As Tab does: the line just in sight, at the lower end.
+        // Scroll as Tab does: the line comes just into view, at the lower end.
         window.get_by_label_contains(fold).focus();
         settle(&mut window);
         let before = line(&window);
@@ -137,7 +137,7 @@ fn a_fold_that_is_opened_at_the_lower_end_is_brought_into_sight() {
         assert!(line(&window).top() >= modes.bottom(), "{fold} {:?}", line(&window));
         let content = window.get_by_label_contains(inside).rect();
         assert!(content.bottom() <= bottom, "{inside} {content:?}");
-        // Closing it moves nothing that stays.
+        // Closing the fold moves no remaining line upwards.
         let open = line(&window);
         window.get_by_label_contains(fold).click();
         settle(&mut window);
@@ -145,7 +145,7 @@ fn a_fold_that_is_opened_at_the_lower_end_is_brought_into_sight() {
     }
 }
 
-/// Returns `true` if such a control of the card is there, and whole in the window.
+/// Returns `true` if such a control of the card exists, and is whole in the window.
 fn stays(window: &Window, size: [f32; 2], is_it: impl Fn(&str) -> bool) -> bool {
     let whole = Rect::from_min_size(pos2(0.0, 0.0), vec2(size[0], size[1]));
     let buttons = window.query_all_by_role(Role::Button);
@@ -179,7 +179,7 @@ fn track_jog_and_stop_stay_in_sight_however_far_the_card_is_scrolled() {
     }
 }
 
-/// Places of the jog keys for up and left, where there are any.
+/// Returns the places of the jog keys for up and left, if there are any.
 fn jog_keys(model: Model, size: [f32; 2]) -> Option<[Rect; 2]> {
     let window = rig::window(size, model);
     let place = |key| Some(window.query_by_label(key)?.rect());
@@ -206,7 +206,7 @@ fn unguarded() -> Model {
     model
 }
 
-/// States that add and remove lines around the jog keys.
+/// Returns states that add and remove lines around the jog keys.
 fn around_the_jog_keys() -> Vec<(&'static str, Model)> {
     let since = states::moving().state.measured.unwrap().received;
     let stop = StopState::NotConfirmed { start: since };
@@ -245,7 +245,8 @@ fn nothing_that_comes_and_goes_moves_the_jog_keys() {
         let usual = jog_keys(rig::model(states::manual()), size);
         assert!(usual.is_some());
         for (what, model) in around_the_jog_keys() {
-            // A low card has none while a target is tracked, when they are locked.
+            // A low card has no jog keys while the antenna tracks a target, because they are locked
+            // then.
             let is_without = size == rig::SMALL && what == "tracking";
             let wanted = if is_without { None } else { usual };
             assert_eq!(jog_keys(model, size), wanted, "{what} at {size:?}");

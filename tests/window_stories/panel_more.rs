@@ -31,10 +31,10 @@ fn variant(model: &Model) -> &'static Variant {
     model.antennas[0].variant()
 }
 
-/// A window with the actions unfolded.
+/// Returns a window with the actions unfolded.
 fn unfolded(size: [f32; 2], model: Model) -> Window {
     let mut window = rig::window(size, model);
-    // Where they have room they are unfolded already.
+    // The actions are already unfolded if they have room.
     let line = window.get_by_label_contains("More: ");
     if line.accesskit_node().data().is_expanded() == Some(false) {
         line.click_accesskit();
@@ -43,7 +43,7 @@ fn unfolded(size: [f32; 2], model: Model) -> Window {
     window
 }
 
-/// Text to type into a field, and its value.
+/// Returns the text to type into a field, and its value.
 fn sample(field: &Field) -> (&'static str, Value) {
     match field.kind {
         Kind::Integer { .. } => ("120", Value::Integer(120)),

@@ -1,4 +1,4 @@
-//! Choosing a pass: in the list, on the sky, on the strip, by keys.
+//! Choice of a pass: in the list, on the sky, on the strip, by keys.
 
 use std::sync::Arc;
 
@@ -26,12 +26,12 @@ use crate::window_stories::{
 const METEOR_M2_4: u32 = 59_051;
 const EUTELSAT_7C: u32 = 44_334;
 
-/// The window of a quiet station with NOAA 20 selected.
+/// Returns the window of a quiet station with NOAA 20 selected.
 fn window(size: [f32; 2]) -> Window {
     rig::window(size, rig::model(states::holding()))
 }
 
-/// The first pass of this satellite that has not begun.
+/// Returns the first pass of this satellite that has not begun.
 fn coming(model: &Model, number: u32) -> &PredictedPass {
     let of = |predicted: &&PredictedPass| predicted.satellite.elements.catalog_number() == number;
     model
@@ -165,7 +165,7 @@ fn a_click_in_the_open_drawer_never_reaches_the_sky_below() {
         .get_all_by_role(Role::ListBoxOption)
         .filter(|node| node.accesskit_node().label().is_some_and(|name| name.contains("OS T−")))
         .map(|node| node.rect())
-        // A row that is half hidden is scrolled to first.
+        // Leave out half-hidden rows, because the window scrolls to them first.
         .filter(|row| row.bottom() < 504.0)
         .map(|row| row.center())
         .collect();
@@ -223,7 +223,7 @@ fn a_pass_of_any_satellite_is_listed_selected_drawn_and_tracked() {
     for size in rig::sizes() {
         let mut model = rig::model(states::holding());
         let favourites = std::mem::take(&mut model.shown_mut().pass_lists.favourites.passes);
-        // The same passes, as if their satellites were not favourites.
+        // Use the same passes, as if their satellites were not favourites.
         model.shown_mut().pass_lists.all.passes = favourites;
         model.shown_mut().pass_lists.all.satellites =
             model.pass_lists.favourites.satellites.clone();
@@ -280,7 +280,7 @@ fn the_list_is_filtered_by_name_and_number() {
         settle(&mut window);
         window.event(Event::Text("meteor".to_owned()));
         settle(&mut window);
-        // The strip of passes is not filtered, and its bars do not count as rows.
+        // The filter does not apply to the strip of passes, whose bars do not count as rows.
         let rows = window.get_all_by_role(Role::ListBoxOption);
         let rows = rows.filter_map(|row| row.accesskit_node().label());
         let rows: Vec<_> = rows.filter(|name| name.contains("OS T−")).collect();
@@ -313,7 +313,7 @@ fn up_and_down_stay_within_what_is_filtered() {
         .map(PredictedPass::key)
         .collect();
     window.state_mut().model.selected = Some(of_meteor[0]);
-    // The focus leaves the field.
+    // A click moves the focus out of the field.
     window.drag_at(egui::pos2(700.0, 300.0));
     window.drop_at(egui::pos2(700.0, 300.0));
     asked(&mut window);
@@ -321,7 +321,7 @@ fn up_and_down_stay_within_what_is_filtered() {
     assert_eq!(asked(&mut window), [UiCommand::SelectPass(of_meteor[1])]);
 }
 
-/// The names of the rows of the list.
+/// Returns the names of the rows of the list.
 fn rows(window: &Window) -> Vec<String> {
     let rows = window.get_all_by_role(Role::ListBoxOption);
     let names = rows.filter_map(|row| row.accesskit_node().label());
@@ -456,7 +456,7 @@ fn the_list_is_drawn_wider_and_a_double_click_brings_it_back() {
     let at = edge(&window);
     window.hover_at(at);
     settle(&mut window);
-    // In one frame: the frames of a story are too slow for a double click.
+    // Send both clicks in one frame, because the frames of a story are too slow for a double click.
     let press = |pressed| Event::PointerButton {
         pos: at,
         button: PointerButton::Primary,

@@ -1,4 +1,4 @@
-//! The Plan view: what is taken and why, the operator's choices, and automatic operation.
+//! Plan view: the taken passes and the reasons, the operator's choices, and automatic operation.
 
 use std::sync::Arc;
 
@@ -34,7 +34,8 @@ fn key((satellite, aos): PassListKey) -> Key {
     Key { satellite, aos }
 }
 
-/// The first pass is taken by the antenna, the second is left out for it, and so on in turn.
+/// Returns a plan in which the antenna takes the first pass and leaves the second out for it, and
+/// so on in turn.
 pub(crate) fn planned(model: &azel::model::Model) -> Planned {
     let id = model.antennas[0].id();
     let mut schedule = Schedule::default();
@@ -85,7 +86,7 @@ pub(crate) fn planned(model: &azel::model::Model) -> Planned {
     Planned { schedule, revision: 4, made_at: Some(model.now), ..Planned::default() }
 }
 
-/// The view with every second pass taken.
+/// Returns the view with every second pass taken.
 pub(crate) fn view(size: [f32; 2]) -> Window {
     let mut model = rig::model(states::holding());
     model.view = View::Plan;
@@ -102,7 +103,7 @@ fn the_spare_time_runs_down_with_the_countdown() {
     let first = model.schedule.schedule.entries.iter().find(|of| of.start > model.now).unwrap();
     let (key, from) = ((first.pass.satellite, first.pass.aos), first.start);
     model.selected = Some(key);
-    // 41 s of slew and 12 s of set-up come before it.
+    // A slew of 41 s and a set-up of 12 s come before the pass.
     for (before_s, spare) in [(600.0, "5:00"), (253.0, "3:20"), (60.0, "0:07"), (50.0, "0:00")] {
         window.state_mut().model.now = add_seconds(from, -before_s);
         settle(&mut window);
@@ -152,7 +153,7 @@ fn commands(window: &mut Window) -> Vec<Command> {
     station.collect()
 }
 
-/// The pass of the row with this number among the passes to come.
+/// Returns the key of the planned pass at this index.
 fn pass(window: &Window, index: usize) -> PassListKey {
     let model = &window.state().model;
     let passes = model.planned_passes();
@@ -213,7 +214,7 @@ fn many_favourites_leave_ten_rows_to_what_an_antenna_carries_out() {
                 rows.map(|row| row.rect()).filter(|row| list.contains_rect(*row)).collect();
             let room = list.height() / rows[0].height();
             assert!(room >= 10.0 && rows.len() >= 5, "{size:?}: {room} rows");
-            // The favourites keep a part that is worth scrolling in.
+            // The favourites keep enough rows to scroll in.
             assert!(list.top() > 0.5 * size[1], "{size:?}: {list:?}");
         }
     }
@@ -239,7 +240,7 @@ fn the_switch_counts_the_rows_that_each_of_its_choices_shows() {
         node.click();
         settle(&mut window);
         let count: usize = label[choice.len()..].parse().unwrap();
-        // The diagram above has options of its own.
+        // The diagram above has its own options.
         let name = &window.state().model.antennas[0].config.name;
         let list = window
             .query_all_by_role(Role::ListBox)
@@ -313,7 +314,7 @@ fn a_choice_waits_for_edits_of_the_preferences_which_stay() {
 #[test]
 fn the_price_of_a_pass_is_asked_once_and_a_swap_asks_with_it() {
     let mut window = view(LARGE);
-    // The one that was selected before has its price asked already.
+    // Azel has already asked the price of the previous selection.
     let key = pass(&window, 3);
     window.state_mut().model.selected = Some(key);
     settle(&mut window);
@@ -440,7 +441,7 @@ fn automatic_operation_takes_a_hold_to_switch_on_and_a_click_to_switch_off() {
     window.get_by_role_and_label(Role::Button, off).focus();
     settle(&mut window);
     window.key_down(Press::Space);
-    // More than a second of the window's clock.
+    // The hold lasts more than a second of the window's clock.
     window.run_steps(90);
     window.key_up(Press::Space);
     let set = |is_on| Command::SetAutomatic { antenna: id, is_on };
@@ -575,7 +576,7 @@ fn the_arrows_lead_through_a_menu_and_not_through_the_list_behind_it() {
         settle(&mut window);
         assert_eq!(focused(&window).as_deref(), Some(entry));
     }
-    // Swaps a pass where no menu is open.
+    // Without an open menu, this key swaps a pass.
     window.key_press(Press::S);
     settle(&mut window);
     assert_eq!(window.query_all_by_label_contains("Take it (Enter)").count(), 0);
@@ -627,7 +628,8 @@ fn the_plan_is_rehearsed_and_what_came_of_it_stands_beside_the_pass_as_a_rehears
     let (satellite, aos) = select(&mut window, 0);
     window.get_by_role_and_label(Role::Button, "Rehearse this pass").click();
     assert_eq!(rig::asked(&mut window), [UiCommand::Rehearse(Some((satellite, aos)))]);
-    // Only the antennas that take it are rehearsed; the selected one where none does.
+    // The rehearsal takes only the antennas of this pass, or the selected antenna if none takes the
+    // pass.
     let model = &window.state().model;
     let entries = &model.schedule.schedule.entries;
     for entry in entries {
@@ -693,7 +695,7 @@ fn tab_leads_from_the_passes_to_automatic_operation_in_a_few_steps() {
     let mut window = view(LARGE);
     window.get_by_role_and_label(Role::ListBox, "Passes by satellite").focus();
     settle(&mut window);
-    // Arrows stay in the list.
+    // The arrow keys stay in the list.
     window.key_press(Press::ArrowDown);
     settle(&mut window);
     assert!(window.get_by_role_and_label(Role::ListBox, "Passes by satellite").is_focused());

@@ -1,4 +1,4 @@
-//! Everything that opens over the window closes without Esc too, because Esc is also STOP.
+//! Popups over the window, which must also close without Esc, because Esc is STOP too.
 
 use azel::model::View;
 use egui::{Key, Role, pos2};
@@ -29,7 +29,7 @@ fn click_outside(window: &mut Window) {
     settle(window);
 }
 
-/// Menus close by a click outside and by the key that opened them.
+/// A menu closes by a click outside and by the key that opened it.
 #[test]
 fn menus_close_by_a_click_outside_and_by_their_own_key() {
     for size in rig::sizes() {
@@ -52,7 +52,7 @@ fn menus_close_by_a_click_outside_and_by_their_own_key() {
     }
 }
 
-/// Popups that stay open while they are used have a key to close them.
+/// Popups that stay open during use have a key to close them.
 #[test]
 fn popups_close_by_a_click_outside_and_by_a_close_key() {
     for size in SIZES {

@@ -1,4 +1,4 @@
-//! Settings of the station: typed, corrected, saved and reverted.
+//! Settings of the station, which the operator types, corrects, saves and reverts.
 
 use std::sync::Arc;
 
@@ -35,14 +35,14 @@ pub(crate) fn open(window: &mut Window, page: &str) {
     settle(window);
 }
 
-/// The form at the page of the antenna.
+/// Returns the form at the page of the antenna.
 pub(crate) fn antenna_form(size: [f32; 2]) -> Window {
     let mut window = form(size);
     open(&mut window, "Satrak");
     window
 }
 
-/// Adds an antenna of this make; its page is shown then.
+/// Adds an antenna of this make, whose page then opens.
 pub(crate) fn add(window: &mut Window, make: &str) {
     window.get_by_role_and_label(Role::ComboBox, "Add an antenna").click();
     settle(window);
@@ -50,7 +50,7 @@ pub(crate) fn add(window: &mut Window, make: &str) {
     settle(window);
 }
 
-/// Commands other than questions for what the edits of an antenna change.
+/// Returns the commands other than requests for the effect of an antenna's edits.
 pub(crate) fn asked(window: &mut Window) -> Vec<UiCommand> {
     let mut commands = rig::asked(window);
     commands.retain(|command| !matches!(command, UiCommand::ShowTracked(_)));
@@ -375,7 +375,7 @@ fn every_field_and_the_bar_below_are_whole_in_every_window() {
         open(&mut window, "Satrak");
         let fields: Vec<_> = window.query_all_by_role(Role::TextInput).collect();
         let mut lefts: Vec<i32> = fields.iter().map(|node| node.rect().left() as i32).collect();
-        // Not the search, which is in the list.
+        // Leave out the search, which is in the list.
         lefts.retain(|left| *left > 232 + 72);
         lefts.sort_unstable();
         lefts.dedup();

@@ -1,5 +1,5 @@
-//! Antennas of every make: added in the form, filled in wrong and right, saved and read
-//! back.
+//! Antennas of every make, which the operator adds in the form, fills in wrong and right, saves and
+//! reads back.
 
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ const SATRAK: &str = "Add SVS Satrak";
 const GENIUS: &str = "Add 4O3A Rotator Genius";
 const RC2000C: &str = "Add Research Concepts RC2000C";
 
-/// The form of a station without antennas.
+/// Returns the form of a station without antennas.
 fn bare(size: [f32; 2]) -> Window {
     let mut model = rig::model(states::holding());
     model.view = View::Preferences;
@@ -50,7 +50,7 @@ fn has_field(window: &Window, label: &str) -> bool {
     window.query_by_role_and_label(Role::TextInput, label).is_some()
 }
 
-/// Text in the field with this name.
+/// Returns the text in the field with this name.
 fn typed(window: &Window, label: &str) -> String {
     let mut fields = window.get_all_by_label(label);
     let is_field = |role| matches!(role, Role::TextInput | Role::MultilineTextInput);
@@ -58,7 +58,7 @@ fn typed(window: &Window, label: &str) -> String {
     field.and_then(|node| node.value()).expect("a field with a text")
 }
 
-/// The station after it was written to its file and read again.
+/// Writes the station to its file, and returns it as read again.
 fn reloaded(station: &Station) -> Station {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");

@@ -1,4 +1,4 @@
-//! The pages of the preferences: found, gone through, counted, and what their edits change.
+//! Pages of the preferences: search, order, counts, and the effects of their edits.
 
 use std::{sync::Arc, time::Duration};
 
@@ -46,7 +46,7 @@ fn press(window: &mut Window, role: Role, name: &str) {
     settle(window);
 }
 
-/// The page that is chosen in the list.
+/// Returns the page that is chosen in the list.
 fn shown(window: &Window) -> String {
     let mut pages = window.query_all_by_role(Role::RadioButton);
     let list = |node: &egui_kittest::Node<'_>| node.rect().left() < 80.0;
@@ -167,7 +167,7 @@ fn a_field_says_what_it_was_and_no_row_moves_when_it_is_wrong() {
     }
 }
 
-/// Unfolds the preview where it is a fold.
+/// Unfolds the preview if it is folded.
 fn unfold(window: &mut Window) {
     let fold = window.query_all_by_role(Role::Button).find(|node| {
         node.accesskit_node().label().is_some_and(|name| name.starts_with("What this changes"))
@@ -343,8 +343,7 @@ fn an_edit_is_marked_by_its_border_and_the_focus_by_a_ring_and_an_invalid_field_
             window.get_by_role_and_label(Role::TextInput, name).rect()
         };
         let t = theme::tokens(&window.ctx);
-        // `true` if the border is that of an unedited field, and `true` if it is that of an edited
-        // one.
+        // Returns two flags: the border of an unedited field, and the border of an edited field.
         let border = |window: &Window| {
             let colours = painted::around(window, field(window, "Latitude"), 1.5);
             [colours.contains(&t.edge), colours.contains(&t.sat)]
@@ -564,7 +563,7 @@ fn a_peak_is_entered_as_measured_now_or_as_typed_and_removed() {
     }
 }
 
-/// A locked button says its reason under the pointer.
+/// Checks that a locked button shows its reason under the pointer.
 fn says_why(window: &mut Window, button: &str, why: &str) {
     window.get_by_role_and_label(Role::Button, button).scroll_to_me();
     settle(window);

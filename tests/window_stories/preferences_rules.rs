@@ -57,7 +57,7 @@ fn weather() -> SatelliteGroup {
     }
 }
 
-/// The page of a station with a group and these rules.
+/// Returns the page of a station with a group and these rules.
 fn page(size: [f32; 2], page: &str, rules: Vec<AutomationRule>) -> Window {
     let mut model = rig::model(states::holding());
     model.view = View::Preferences;
@@ -68,7 +68,7 @@ fn page(size: [f32; 2], page: &str, rules: Vec<AutomationRule>) -> Window {
     window
 }
 
-/// Rules of which the first is chosen.
+/// Returns the page of two rules, of which the first is chosen.
 pub(crate) fn view(size: [f32; 2]) -> Window {
     page(size, RULES, vec![of_weather(), of_iss()])
 }

@@ -1,4 +1,4 @@
-//! Automatic acts of the station for its antennas, set in the form.
+//! Automatic acts of the station for its antennas, as the form sets them.
 
 use azel::{
     contract::driver::{Snapshot, StoppingWay},
@@ -14,7 +14,7 @@ use crate::window_stories::{
     states,
 };
 
-/// Chooses one of the words of the form, in view or not.
+/// Chooses one of the words of the form, even outside the view.
 fn choose(window: &mut Window, word: &str) {
     window.get_by_role_and_label(Role::RadioButton, word).click_accesskit();
     settle(window);

@@ -1,4 +1,4 @@
-//! The record: passes that were tracked, and what became of them.
+//! Record view: tracked passes and their results.
 
 use std::sync::Arc;
 
@@ -49,11 +49,11 @@ use crate::window_stories::{
     settings_rig, states,
 };
 
-/// The antenna is where the satellite was so long before, seconds.
+/// Delay of the antenna behind the satellite, seconds.
 const LATE_S: f64 = 0.8;
 const HALF_BEAM_DEG: f64 = 0.44;
 
-/// Passes of the day before, the newest first, each as an antenna flew it.
+/// Returns passes of the previous day, newest first, each with the flight of an antenna.
 fn flown(model: &Model) -> Vec<OpenedPass> {
     let elements = bundled().unwrap().get(NOAA_20).unwrap().clone();
     let propagator = Propagator::new(&elements).unwrap();
@@ -157,7 +157,7 @@ fn opened(model: &Model, id: i64, pass: &Pass, verdict: PassVerdict) -> OpenedPa
     }
 }
 
-/// The model of a station whose record holds these passes, with one of them opened.
+/// Returns the record of a station with these passes, of which the one at `place` is open.
 fn recorded(flown: &[OpenedPass], place: usize) -> Recorded {
     let passes: Vec<RecordedPass> = flown.iter().map(|opened| opened.pass.clone()).collect();
     let count = passes.len() as u32;
@@ -298,8 +298,8 @@ fn a_report_is_saved_for_other_programs() {
     assert_eq!(json["passes"][0]["report"]["verdict"], "fair");
 }
 
-/// The record of a station whose unit was read, with the newest pass flown as `about` says and
-/// explained by `cause` alone.
+/// Returns the record of a station whose unit was read. `set` changes the track of the newest pass,
+/// which `cause` alone explains.
 fn explained_by(cause: Cause, set: impl FnOnce(&mut AboutTrack)) -> Model {
     let mut model = rig::model(settings_rig::read());
     let mut flown = flown(&model);
@@ -311,7 +311,7 @@ fn explained_by(cause: Cause, set: impl FnOnce(&mut AboutTrack)) -> Model {
     model
 }
 
-/// A report whose best explanation can be corrected.
+/// Returns a report whose best explanation has a correction.
 pub(super) fn to_correct(size: [f32; 2]) -> Window {
     let mut window =
         rig::window(size, explained_by(Cause::AzimuthOffset { offset_deg: 0.25 }, |_| ()));
@@ -419,7 +419,7 @@ fn the_passes_of_chosen_days_are_exported_as_the_list_is_filtered() {
         window.key_press(Key::Enter);
         let noaa = PassQuery { text: "noaa".to_owned(), ..all };
         assert_eq!(asked(&mut window), [days(noaa, RowFormat::Json)]);
-        // The key that opens it is no answer.
+        // The key that opens the dialog is no answer to it.
         window.get_by_role_and_label(Role::Button, "Export days").focus();
         settle(&mut window);
         window.key_press(Key::Enter);
@@ -542,7 +542,7 @@ fn what_nothing_here_corrects_has_no_correction_and_neither_has_a_setting_writte
     assert!(window.query_by_label("Apply…").is_none(), "it may be corrected already");
 }
 
-/// The lines that were painted with this width.
+/// Collects the lines that were painted with this width.
 fn lines(shape: &egui::Shape, width: f32, found: &mut Vec<Vec<egui::Pos2>>) {
     match shape {
         egui::Shape::Vec(shapes) => shapes.iter().for_each(|of| lines(of, width, found)),
@@ -646,7 +646,7 @@ fn an_acknowledged_alarm_is_no_new_one() {
     };
     let seen = Alarm { acknowledged: true, ..alarm.clone() };
     let over = Alarm { over_since: Some(came + 3.minutes()), ..seen.clone() };
-    // One that came before what is shown.
+    // This alarm came before the shown stretch.
     let older = Alarm { id: 3, last: came - 1.hour(), ..seen.clone() };
     let row = |time, alarm: &Alarm| Row {
         time,
@@ -701,7 +701,7 @@ fn half_of_a_wide_beam_is_named_within_the_margin() {
         model.shown_mut().recorded = Some(Arc::new(recorded(&flown, 0)));
         let window = rig::window(size, model);
         let runs = painted::runs(&window);
-        // Blanks are not painted.
+        // The painter leaves blanks out.
         let name = runs.iter().find(|run| run.text == "10.00halfbeam").expect("it is whole");
         assert!(name.rect.right() <= size[0] - 16.0, "{:?}", name.rect);
     }
@@ -751,7 +751,7 @@ fn two_causes_that_act_together_stand_together_and_the_passes_before_are_told() 
              their error."
         );
         window.get_by_label(&said);
-        // One correction types both in.
+        // One correction enters both values.
         window.query_all_by_label("Apply…").next().unwrap().scroll_to_me();
         settle(&mut window);
         let _ = asked(&mut window);

@@ -1,4 +1,4 @@
-//! The record shown again.
+//! Replay of the record.
 
 use std::{sync::Arc, time::Duration};
 
@@ -35,7 +35,7 @@ use crate::window_stories::{
     unit::{RealWindow, Unit, clock_from, step_until, wait_until},
 };
 
-/// A replay that plays.
+/// Returns the model of a running replay.
 pub(crate) fn model() -> Model {
     let mut model = rig::model(states::manual());
     let at = model.now;
@@ -50,7 +50,7 @@ pub(crate) fn model() -> Model {
     model
 }
 
-/// A pass of ten minutes that begins `begins_s` after the shown moment.
+/// Returns a pass of ten minutes that begins `begins_s` after the shown moment.
 fn times(model: &Model, name: &str, begins_s: f64) -> PassTimes {
     let at = |second: f64| add_seconds(model.now, begins_s + second);
     PassTimes {
@@ -174,7 +174,7 @@ fn what_commands_an_antenna_in_other_views_is_locked_too() {
             window.hover_at(egui::pos2(1.0, 1.0));
             settle(window);
         };
-        // In a small window it is a drawer.
+        // A small window has a drawer instead.
         if size == rig::LARGE {
             is_locked(&window, Role::Button, "Save passes to a file");
             is_locked(&window, Role::ComboBox, "Elevation floor");
@@ -379,7 +379,7 @@ fn the_speed_is_one_of_five() {
         window.get_by_role_and_label(Role::RadioButton, &format!("{speed}×")).click();
         assert_eq!(asked(&mut window), [replayed(ReplayCommand::Speed(speed))]);
     }
-    // A narrow strip has the one in use, which steps to the next.
+    // A narrow strip shows only the current speed, which steps to the next.
     let mut window = rig::window(SMALL, model());
     assert_eq!(click(&mut window, "10×"), [replayed(ReplayCommand::Speed(20))]);
 }
@@ -409,7 +409,7 @@ fn the_moment_is_moved_by_the_bar_and_the_keys() {
     }
 }
 
-/// The real window on a station with a unit, and a record.
+/// Opens the real window on a station with a unit, and a record.
 fn open(folder: &tempfile::TempDir, unit: &Unit) -> RealWindow {
     let path = folder.path().join("station.toml");
     station::save(&unit.station(), &path, SPECS).unwrap();
@@ -469,7 +469,7 @@ fn while_the_record_is_shown_again_no_command_passes_and_stop_reaches_the_unit()
         again(&window).replay.as_ref().is_some_and(|replay| replay.problem.is_some())
     });
     window.step();
-    // Film is written within a second: whether there is some by now decides the words.
+    // The station writes film within a second, so the words depend on its progress.
     let told = match again(&window).replay.as_ref().and_then(|replay| replay.problem.clone()) {
         Some(ReplayProblem::NoFilm { .. }) => "stands. No film here, for ",
         _ => "stands. Nothing was recorded at this moment.",

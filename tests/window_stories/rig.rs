@@ -1,5 +1,5 @@
-//! A window without a display on a model made by hand: nothing moves, no clock runs, and
-//! the commands of the operator are collected.
+//! Window without a display on a model made by hand: nothing moves, no clock runs, and the rig
+//! collects the operator's commands.
 
 use std::{
     sync::{Arc, OnceLock},
@@ -37,13 +37,13 @@ use egui_kittest::{
 };
 use jiff::Timestamp;
 
-/// The usual window and the smallest one.
+/// Default window size and the smallest one, points.
 pub(crate) const SIZES: [[f32; 2]; 2] = [LARGE, SMALL];
 pub(crate) const LARGE: [f32; 2] = [1440.0, 900.0];
 pub(crate) const SMALL: [f32; 2] = [1024.0, 640.0];
 
-/// The sizes for a story that goes the same way in each: the usual one, or all with
-/// `AZEL_SIZES=all` in the environment. Layout is checked at all [`SIZES`] every time.
+/// Returns the sizes for a story that goes the same way in each: the default one, or all with
+/// `AZEL_SIZES=all` in the environment. The checks of the layout always use all [`SIZES`].
 pub(crate) fn sizes() -> impl Iterator<Item = [f32; 2]> {
     let is_long = std::env::var("AZEL_SIZES").is_ok_and(|sizes| sizes == "all");
     SIZES.into_iter().take(if is_long { SIZES.len() } else { 1 })
@@ -52,7 +52,7 @@ pub(crate) fn sizes() -> impl Iterator<Item = [f32; 2]> {
 pub(crate) const NOAA_20: u32 = 43_013;
 const FOLLOWED: [u32; 5] = [NOAA_20, 25_544, 59_051, 37_849, 44_334];
 
-/// A window and its commands.
+/// Window content and the commands of the operator.
 pub(crate) struct Story {
     pub(crate) model: Model,
     pub(crate) views: Views,
@@ -61,12 +61,12 @@ pub(crate) struct Story {
 
 pub(crate) type Window = Harness<'static, Story>;
 
-/// Time of every story; NOAA 20 is up.
+/// Returns the time of every story; NOAA 20 is up.
 pub(crate) fn now() -> Timestamp {
     "2026-08-12T11:15:30Z".parse().unwrap()
 }
 
-/// Elements, and passes over the site of [`station`], made once.
+/// Elements, and passes over the site of [`station`], computed once.
 struct Orbits {
     catalog: Arc<Catalog>,
     satellites: Vec<Arc<ListedSatellite>>,
@@ -84,7 +84,7 @@ fn orbits() -> &'static Orbits {
             .flat_map(|satellite| predicted_passes(satellite, &station(), now()))
             .collect();
         passes.sort_by_key(|predicted| (predicted.pass.aos.time, predicted.number()));
-        // Shared by all stories, together with their drawings.
+        // All stories share these paths, together with their drawings.
         for predicted in &passes {
             predicted.path();
         }
@@ -98,7 +98,7 @@ fn followed(catalog: &Catalog, number: u32) -> ListedSatellite {
     ListedSatellite { elements, propagator }
 }
 
-/// Passes of the 12 h after `now`, with the one under way.
+/// Returns the passes of the 12 h after `now`, with the one under way.
 pub(crate) fn predicted_passes(
     satellite: &Arc<ListedSatellite>,
     station: &Station,
@@ -118,14 +118,14 @@ pub(crate) fn predicted_passes(
         .collect()
 }
 
-/// A station in Istanbul with one Satrak.
+/// Returns a station in Istanbul with one Satrak.
 pub(crate) fn station() -> Station {
     let antennas = vec![Antenna::satrak("Satrak", "192.168.10.21:4001")];
     let favourites = FOLLOWED.into();
     Station { name: "Şile 1".to_owned(), antennas, favourites, ..Station::default() }
 }
 
-/// Snapshot of a new session with its link up.
+/// Returns the snapshot of a new session with its link up.
 pub(crate) fn quiet() -> Snapshot {
     let since = Instant::now();
     let mut snapshot = Snapshot::before_anything(LinkState::Up { start: since });
@@ -133,13 +133,13 @@ pub(crate) fn quiet() -> Snapshot {
     snapshot
 }
 
-/// An antenna that shows `snapshot` for ever.
+/// Returns an antenna that always shows `snapshot`.
 pub(crate) fn antenna(config: Antenna, mut snapshot: Snapshot) -> AntennaModel {
     snapshot.state.questions = Arc::clone(&config.controller().state().questions);
     AntennaModel::new(config, Arc::new(snapshot))
 }
 
-/// The station with its antenna in the state of `snapshot`, NOAA 20 selected.
+/// Returns the station with its antenna in the state of `snapshot`, and NOAA 20 selected.
 pub(crate) fn model(mut snapshot: Snapshot) -> Model {
     // A Satrak names its checks before the first question.
     if snapshot.state.checks.is_empty() {
@@ -167,7 +167,7 @@ pub(crate) fn model(mut snapshot: Snapshot) -> Model {
     model
 }
 
-/// Works out what the station adds to the measurements of its antennas.
+/// Computes the values that the station adds to the measurements of its antennas.
 pub(crate) fn refresh_antennas(model: &mut Model) {
     let shown = Arc::clone(model.shown());
     for antenna in &mut model.shown_mut().antennas {
@@ -177,17 +177,17 @@ pub(crate) fn refresh_antennas(model: &mut Model) {
     }
 }
 
-/// Instant `seconds` before the frame of `model`.
+/// Returns the instant `seconds` before the frame of `model`.
 pub(crate) fn ago(model: &Model, seconds: u64) -> Instant {
     model.steady - Duration::from_secs(seconds)
 }
 
-/// Instant an hour after the frame of `model`.
+/// Returns the instant an hour after the frame of `model`.
 pub(crate) fn soon(model: &Model) -> Instant {
     model.steady + Duration::from_hours(1)
 }
 
-/// The whole window on `model`.
+/// Opens the whole window on `model`.
 pub(crate) fn window(size: [f32; 2], model: Model) -> Window {
     let story = Story { model, views: Views::default(), commands: Vec::new() };
     let mut window = Harness::builder()
@@ -210,7 +210,7 @@ pub(crate) fn window(size: [f32; 2], model: Model) -> Window {
     window
 }
 
-/// Works out the rows of the catalog as the app does on a thread.
+/// Computes the rows of the catalog, as the app does on a thread.
 fn arrange_catalog(story: &mut Story) {
     let model = &mut story.model;
     for command in &story.commands {
@@ -267,8 +267,8 @@ fn arrange_catalog(story: &mut Story) {
     }
 }
 
-/// Runs frames until nothing changes: at least two, since a story may answer a command after its
-/// frame, and at most four, since a bell blinks for ever.
+/// Runs frames until nothing changes. It runs at least two, because a story may answer a command
+/// after its frame, and at most four, because a bell blinks forever.
 pub(crate) fn settle(window: &mut Window) {
     window.step();
     for _ in 0..3 {
@@ -293,12 +293,12 @@ pub(crate) fn scroll(window: &mut Window, at: Pos2, points: f32) {
     settle(window);
 }
 
-/// Commands since the last call.
+/// Returns the commands since the last call.
 pub(crate) fn asked(window: &mut Window) -> Vec<UiCommand> {
     settle(window);
     let asked = std::mem::take(&mut window.state_mut().commands);
     for command in &asked {
-        // The reader of stations does not know a make that a test describes.
+        // The reader of stations does not know makes that a test describes.
         let is_of_a_toy = |station: &Station| {
             let mut specs = station.antennas.iter().map(|antenna| antenna.connection.spec());
             specs.any(|spec| !SPECS.contains(&spec))
@@ -312,7 +312,7 @@ pub(crate) fn asked(window: &mut Window) -> Vec<UiCommand> {
     asked
 }
 
-/// Commands since the last call, without those that only look at a direction.
+/// Returns the commands since the last call, without previews of a direction.
 pub(crate) fn sent(window: &mut Window) -> Vec<UiCommand> {
     let mut commands = asked(window);
     commands.retain(|command| {
@@ -324,7 +324,7 @@ pub(crate) fn sent(window: &mut Window) -> Vec<UiCommand> {
     commands
 }
 
-/// Returns `true` if a text (not a control) of the window contains `words`.
+/// Returns `true` if a text of the window, not a control, contains `words`.
 pub(crate) fn says(window: &Window, words: &str) -> bool {
     window.query_all_by_role(Role::Label).any(|node| {
         let node = node.accesskit_node();
@@ -332,7 +332,7 @@ pub(crate) fn says(window: &Window, words: &str) -> bool {
     })
 }
 
-/// Command to track NOAA 20, with the antenna and pass that are selected in every story.
+/// Returns the command to track NOAA 20, with the antenna and pass that every story selects.
 pub(crate) fn track_noaa_20() -> UiCommand {
     UiCommand::track_selected(&model(quiet())).expect("a selected pass")
 }

@@ -50,7 +50,7 @@ fn place(window: &RealWindow) -> AzEl {
     measured(window.state().model()).unwrap().direction().unwrap()
 }
 
-/// Window of the demo station, once its antenna is measured.
+/// Opens the window of the demo station and waits until its antenna is measured.
 fn demo(folder: &tempfile::TempDir) -> RealWindow {
     let mut window = open_demo(folder);
     step_until(&mut window, "the antenna is measured", stands);
@@ -58,9 +58,8 @@ fn demo(folder: &tempfile::TempDir) -> RealWindow {
     window
 }
 
-/// Holds the key of a jog until the condition holds. A frame longer than the lease ends a
-/// jog, rightly, and occurs on a busy machine: the key is then pressed again, as by a
-/// hand.
+/// Holds the key of a jog until the condition holds. On a busy machine, a frame longer than the
+/// lease rightly ends a jog. The function then presses the key again, as a hand would.
 fn hold_jog_until(window: &mut RealWindow, what: &str, is_so: impl Fn(&Model) -> bool) {
     window.get_by_role_and_label(Role::RadioButton, "Manual").click();
     step_until(window, "manual", |model| intent(model) == Some(Intent::Manual));
@@ -194,7 +193,7 @@ fn a_satellite_that_is_up_is_tracked_within_the_beam() {
     let mut window = open(&path, clock_from(utc));
     step_until(&mut window, "the antenna is measured", stands);
     step_until(&mut window, "the passes are planned", |model| {
-        // The bars of the strip change their places with the first plan.
+        // Wait for the first plan, because it changes the places of the bars in the strip.
         model.schedule.made_at.is_some() && model.pass_of(NOAA_20).is_some()
     });
     assert!(!window.state().model().demo);

@@ -1,4 +1,4 @@
-//! Passes and look angles are saved to files for other programs.
+//! Passes and look angles saved to files for other programs.
 
 use std::fs;
 
@@ -83,7 +83,7 @@ fn without_a_dialog_of_the_desktop_the_path_is_typed() {
         window.key_press(Key::Enter);
         assert_eq!(asked(&mut window), typed("/home/op/sheet.html", false));
         assert!(!says(&window, "This desktop shows no file dialogs"));
-        // Another path replaces no file.
+        // Another path does not replace a file.
         ask(&mut window, "/home/op/sheet.html", true);
         window.get_by_role_and_label(Role::Button, "Replace it (Enter)");
         window.event(Event::Text("2".to_owned()));

@@ -1,4 +1,5 @@
-//! Commands that end a track take a second step that names the track, by mouse and by key alike.
+//! Commands that end a track, which take a second step that names the track, by mouse and by key
+//! alike.
 
 use azel::{
     contract::{
@@ -21,7 +22,7 @@ fn antenna(command: Command) -> UiCommand {
     UiCommand::Station(contract::Command::Antenna(id, command))
 }
 
-/// A window in which the first antenna tracks NOAA 20 and another pass is selected.
+/// Returns a window in which the first antenna tracks NOAA 20 and another pass is selected.
 fn with_another_selected(size: [f32; 2], snapshot: Snapshot) -> rig::Window {
     let mut model = rig::model(snapshot);
     let tracked = model.antennas[0].tracked_number();

@@ -1,4 +1,4 @@
-//! The selected pass follows the selected antenna, unless the operator has chosen another one.
+//! Selected pass, which follows the selected antenna unless the operator has chosen another pass.
 
 use std::sync::Arc;
 
@@ -20,14 +20,14 @@ use crate::window_stories::{
     states,
 };
 
-/// Passes of the plan to come, in the order in which their antenna takes them.
+/// Returns the coming passes of the plan, in the order in which their antenna takes them.
 fn planned(model: &Model) -> Vec<PassListKey> {
     let entries = model.schedule.schedule.entries.iter();
     let ahead = entries.filter(|entry| entry.start > model.now);
     ahead.map(|entry| (entry.pass.satellite, entry.pass.aos)).collect()
 }
 
-/// An antenna that tracks NOAA 20 and takes all passes after it.
+/// Returns an antenna that tracks NOAA 20 and takes all passes after it.
 fn tracking() -> Model {
     let mut model = rig::model(states::tracking(0.1));
     let mut plan = plan::planned(&model);
@@ -47,7 +47,7 @@ fn tracking() -> Model {
     model
 }
 
-/// The antenna has ended its track and stands; the time is a moment after LOS.
+/// Ends the track of the antenna, which then stands; the time is a moment after LOS.
 fn after_los(model: &mut Model) {
     model.shown_mut().antennas.clone_from(&rig::model(states::holding()).antennas);
     model.now = add_seconds(states::los(), 1.0);
@@ -129,7 +129,7 @@ fn a_choice_survives_a_list_that_is_being_made() {
     assert_eq!(model.selected, Some(later));
 }
 
-/// The antenna of `model` and a second one, which takes the third pass.
+/// Adds a second antenna, which takes the third pass.
 fn pair(model: &mut Model) {
     let mut second = model.antennas[0].clone();
     Arc::make_mut(&mut second.config).id = AntennaId(2);

@@ -1,4 +1,4 @@
-//! Sentence of the antenna in every case.
+//! Sentence about the antenna in every case.
 
 use std::{sync::Arc, time::Duration};
 
@@ -18,7 +18,7 @@ use azel::{
 
 use crate::window_stories::{makes, on_board, rig, states};
 
-/// Sentence for the station with this snapshot after `change`.
+/// Returns the sentence for the station with this snapshot after `change`.
 fn told(snapshot: Snapshot, change: impl FnOnce(&mut Model, &mut Snapshot)) -> String {
     let mut model = rig::model(rig::quiet());
     let mut snapshot = snapshot;
@@ -35,7 +35,7 @@ fn told(snapshot: Snapshot, change: impl FnOnce(&mut Model, &mut Snapshot)) -> S
 
 fn unchanged(_: &mut Model, _: &mut Snapshot) {}
 
-/// Change that adds an event just now.
+/// Returns a change that adds a current event.
 fn just(event: Event) -> impl FnOnce(&mut Model, &mut Snapshot) {
     move |model, _| model.shown_mut().antennas[0].news = Some((event, model.now))
 }
@@ -155,7 +155,7 @@ fn only_while_it_tracks_it_is_compared_with_the_satellite() {
         (Phase::Tracking, "20.00° (half beam 0.44°), outside the beam"),
     ] {
         for size in rig::sizes() {
-            // NOAA 20 is up all the time.
+            // NOAA 20 is up in each case.
             let mut snapshot = wrong_elevation.clone();
             snapshot.state.program.as_mut().unwrap().phase = phase;
             let model = rig::model(snapshot);

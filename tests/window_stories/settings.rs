@@ -1,4 +1,4 @@
-//! The Antennas view on a unit made by hand.
+//! Antennas view on a unit made by hand.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ use crate::window_stories::{
     states,
 };
 
-/// The commands, which must all be changes of settings of antenna 1.
+/// Returns the changes of settings of antenna 1; fails at any other command.
 pub(crate) fn settles(commands: Vec<UiCommand>) -> Vec<Change> {
     let change = |command| match command {
         UiCommand::Station(contract::Command::Antenna(
@@ -180,7 +180,7 @@ fn apply_sends_what_was_changed_with_what_was_seen_and_proves_it() {
         write(&mut window, "Latitude", "41.02N");
         write(&mut window, "North offset", "3,00");
         assert!(says(&window, "1 change not sent"), "what is the same is no edit");
-        // Another client changes the value: the operator's view counts.
+        // Another client changes the value. Azel compares with the value that the operator saw.
         change(&mut window, 0, |snapshot| {
             let values = &mut group(snapshot, "general").last_read.as_mut().unwrap().values;
             values.insert("lead_ms", Value::Integer(90_000));
@@ -325,7 +325,7 @@ fn a_password_that_was_sent_or_dropped_does_not_come_back_by_undo() {
             window.get_by_role_and_label(Role::RadioButton, "FTP").click_accesskit();
             settle(&mut window);
             write(&mut window, "Password", "swordfish");
-            // Typing rests for some seconds, after which it could be undone.
+            // After some seconds without typing, the operator could undo the text.
             window.run_steps(300);
             assert_eq!(state_of(&window, "Password"), "Edited");
             if is_sent {

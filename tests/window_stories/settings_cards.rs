@@ -1,4 +1,4 @@
-//! Content of a unit's cards other than its settings.
+//! Content of a unit's cards besides its settings.
 
 use azel::{
     contract::driver::Command,
@@ -24,7 +24,7 @@ fn the_window_of_the_selected_pass_is_filled_in_to_be_applied() {
     apply(&mut window);
     let values = settles(asked(&mut window)).remove(0).values;
     let stop = Value::Time("2026-08-12T11:21:26Z".parse().unwrap());
-    // The pass is under way, and the unit has its start already.
+    // The pass is under way, and the unit already has its start.
     assert_eq!(values, [("stop", stop)].into());
 }
 

@@ -1,5 +1,5 @@
-//! Copies of a real unit's settings: saved, compared, taken over, and saved before every
-//! service change.
+//! Copies of a real unit's settings: Azel saves, compares and takes them over, and saves one before
+//! every service change.
 
 use std::fs;
 
@@ -12,7 +12,7 @@ use crate::window_stories::{
     unit::{step_until, wait_until},
 };
 
-/// Texts of the saved copies.
+/// Returns the texts of the saved copies.
 fn copies(scene: &Scene) -> Vec<String> {
     let entries = fs::read_dir(scene.folder.path().join("settings-copies"));
     let paths = entries.into_iter().flatten().map(|entry| entry.unwrap().path());
@@ -93,7 +93,7 @@ fn a_service_setting_waits_for_the_copy() {
 #[test]
 fn without_the_copy_no_service_setting_is_sent() {
     let mut scene = Scene::open();
-    // A file in place of the folder.
+    // A file stands in the place of the folder.
     fs::write(scene.folder.path().join("settings-copies"), "").unwrap();
     scene.open_service();
     let before = ask(&scene.unit.control, "REDUCTION?");

@@ -3,17 +3,17 @@
 /// Steps with one form.
 pub(crate) struct Story {
     pub(crate) group: &'static str,
-    /// Tab of the form.
+    /// Name of the tab that has the form.
     pub(crate) tab: Option<&'static str>,
     pub(crate) is_service: bool,
-    /// Choice made beforehand and sent along with the first change.
+    /// Choice that the story makes first and sends along with the first change.
     pub(crate) choice: Option<(&'static str, &'static str)>,
-    /// Values typed one after the other, with the unit's answer to `query` then; the last
-    /// field is the one whose state is checked.
+    /// Values that the story types one after the other, with the unit's next answer to `query`. The
+    /// story checks the state of the last field.
     pub(crate) rounds: [(&'static [(&'static str, &'static str)], &'static str); 3],
     pub(crate) query: &'static str,
-    /// Payload that another client sends meanwhile; `None` if the unit reports no value that
-    /// could change.
+    /// Payload that another client sends in between; `None` if the unit reports no value that could
+    /// change.
     pub(crate) foreign: Option<&'static str>,
 }
 

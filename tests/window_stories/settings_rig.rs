@@ -24,7 +24,7 @@ use crate::window_stories::{
 /// Password on the unit. No text may contain it.
 pub(crate) const ON_UNIT: &str = "hunter2";
 
-/// A value that every field of this kind can have.
+/// Returns a value that every field of this kind can have.
 fn usual(field: &Field) -> Value {
     match field.kind {
         Kind::Flag => Value::Flag(false),
@@ -41,7 +41,7 @@ fn usual(field: &Field) -> Value {
     }
 }
 
-/// Complete readings, with the usual values.
+/// Returns complete readings, with default values.
 pub(crate) fn held() -> GroupStates {
     let group = |fields: &[Field]| {
         let reported = fields.iter().filter(|field| field.access != Access::Write);
@@ -52,7 +52,7 @@ pub(crate) fn held() -> GroupStates {
     GROUPS.iter().map(|known| (known.key, group(known.fields))).collect()
 }
 
-/// A unit at standstill whose settings are read.
+/// Returns a unit at standstill whose settings are read.
 pub(crate) fn read() -> Snapshot {
     let mut snapshot = states::holding();
     snapshot.state.link_since = snapshot.state.measured.map(|measured| measured.requested);
@@ -60,7 +60,7 @@ pub(crate) fn read() -> Snapshot {
     snapshot
 }
 
-/// The Antennas view on a unit in this state.
+/// Opens the Antennas view on a unit in this state.
 pub(crate) fn opened(size: [f32; 2], snapshot: Snapshot) -> Window {
     let mut model = rig::model(snapshot);
     model.view = View::Antennas;
@@ -100,7 +100,7 @@ pub(crate) fn choose<S>(window: &mut Harness<'_, S>, label: &str, word: &str) {
     window.run_steps(2);
 }
 
-/// Clicks a button, in view or not.
+/// Clicks a button, even outside the view.
 pub(crate) fn press<S>(window: &mut Harness<'_, S>, name: &str) {
     window.get_by_role_and_label(Role::Button, name).click_accesskit();
     window.run_steps(2);
@@ -118,13 +118,13 @@ pub(crate) fn hold<S>(window: &mut Harness<'_, S>, name: &str) {
     window.run_steps(2);
 }
 
-/// Applies with the key.
+/// Applies the changes with the key.
 pub(crate) fn apply<S>(window: &mut Harness<'_, S>) {
     window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
     window.step();
 }
 
-/// State shown beside a field.
+/// Returns the state shown beside a field.
 pub(crate) fn state_of<S>(window: &Harness<'_, S>, label: &str) -> String {
     let before = format!("{label}: ");
     let told =
@@ -147,7 +147,7 @@ pub(crate) fn says<S>(window: &Harness<'_, S>, words: &str) -> bool {
     texts(window).iter().any(|text| text.contains(words))
 }
 
-/// All names and values that can be read in the window.
+/// Returns all names and values that can be read in the window.
 pub(crate) fn texts<S>(window: &Harness<'_, S>) -> Vec<String> {
     let nodes = window.query_all(By::new());
     let said = nodes.flat_map(|node| {

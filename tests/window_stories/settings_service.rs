@@ -1,4 +1,4 @@
-//! Service functions: locked, opened with care, locked again.
+//! Service functions: locked, unlocked with care, and locked again.
 
 use std::time::Duration;
 

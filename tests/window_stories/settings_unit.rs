@@ -1,5 +1,5 @@
-//! Every settings form against a real unit: refused, verified, changed by another client
-//! meanwhile, and with the link lost in between.
+//! Every settings form against a real unit: a refused change, a verified change, a change by
+//! another client, and a lost link.
 
 use azel::{
     contract::driver::LinkState,
@@ -19,7 +19,7 @@ use crate::window_stories::{
     unit::{RealWindow, Unit, clock_from, open, step_until},
 };
 
-/// Answer of the unit to another client.
+/// Sends `payload` from another client, and returns the unit's answer.
 pub(crate) fn ask(control: &Control, payload: &str) -> String {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_time().build().unwrap();
     runtime.block_on(async {
@@ -34,7 +34,7 @@ pub(crate) fn ask(control: &Control, payload: &str) -> String {
     })
 }
 
-/// A unit, and the window on its settings, all of them read.
+/// Unit, and a window on all of its settings.
 pub(crate) struct Scene {
     pub(crate) unit: Unit,
     pub(crate) window: RealWindow,
@@ -63,7 +63,7 @@ impl Scene {
         });
     }
 
-    /// Types the values of a round; returns the field whose state is checked.
+    /// Types the values of a round, and returns the field whose state the story checks.
     fn edit(&mut self, round: &[(&'static str, &'static str)]) -> &'static str {
         for (label, words) in round {
             write(&mut self.window, label, words);
@@ -72,7 +72,7 @@ impl Scene {
         round.last().unwrap().0
     }
 
-    /// Applies, and waits until the field shows `state`.
+    /// Applies the changes, and waits until the field shows `state`.
     pub(crate) fn apply_until(&mut self, field: &str, state: &str) {
         apply(&mut self.window);
         crate::window_stories::unit::wait_until(state, || {
@@ -91,8 +91,8 @@ impl Scene {
         assert!(says(&self.window, "Open, locks in"));
     }
 
-    /// Lets the unit accept the command of a change and hang up, unreachable until that is
-    /// seen.
+    /// Lets the unit accept the command of a change and hang up. The unit stays out of reach until
+    /// the window shows the loss.
     fn lose_link_while_sending(&mut self, group: &str, press: impl FnOnce(&mut RealWindow)) {
         let control = self.unit.control.clone();
         control.set_fault(Fault::HangUp, true);
@@ -111,7 +111,7 @@ impl Scene {
         control.set_fault(Fault::HangUp, false);
     }
 
-    /// Waits until the link is up and all shown values were read on it.
+    /// Waits until the link is up and Azel has read all shown values over it.
     fn link_is_back(&mut self) {
         let lost_at = self.window.state().model().now;
         step_until(&mut self.window, "the link is back", |model| {
@@ -175,7 +175,7 @@ fn drive(story: &Story) {
     if story.is_service {
         scene.open_service();
     }
-    // The change may have been accepted just before the link went.
+    // The unit may have accepted the change just before the link broke.
     if state_of(&scene.window, field) != "Unchanged" {
         scene.apply_until(field, done);
     }

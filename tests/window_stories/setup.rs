@@ -1,4 +1,4 @@
-//! The set-up of a station: what each step asks, shows and refuses.
+//! Set-up of a station: the questions, displays and refusals of each step.
 
 use std::{sync::Arc, time::Duration};
 
@@ -63,7 +63,7 @@ pub(crate) fn write_site(window: &mut Window) {
     write(window, "Altitude", "121");
 }
 
-/// Adds an antenna of the first make and returns it as it would be tested.
+/// Adds an antenna of the first make, and returns the antenna that a link test gets.
 pub(crate) fn add_and_test(window: &mut Window, address: &str) -> Antenna {
     press(window, &format!("Add {}", SPECS[0].name));
     write(window, "Address of the Satrak", address);
@@ -278,7 +278,7 @@ fn each_outcome_of_a_test_says_what_to_check() {
             assert!(says(&window, words), "{words}");
             assert!(says(&window, "Satrak: you can continue."), "{words}");
         }
-        // The outcome is about what was tested.
+        // The outcome applies only to the tested address.
         write(&mut window, "Address of the Satrak", "other.local:4001");
         assert!(!says(&window, "Nobody answers"));
         window.get_by_role_and_label(Role::Button, "Test link of Satrak");

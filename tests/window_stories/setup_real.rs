@@ -1,5 +1,5 @@
-//! From nothing to an antenna that tracks, in the real app beside the running demonstration: once
-//! with the mouse and once with the keyboard alone.
+//! Set-up from nothing to a tracking antenna, in the real app beside the running demonstration:
+//! once with the mouse and once with the keyboard alone.
 
 use azel::{
     contract::{antenna::AntennaModel, driver::LinkFinding, link_tests::LinkTestStage},
@@ -17,12 +17,12 @@ use crate::window_stories::{
     unit::{RealWindow, Unit, clock_from, open, step_until, wait_until},
 };
 
-/// The most that a newcomer has to do.
+/// Max number of actions of a newcomer.
 const MAX_ACTIONS: usize = 25;
-/// NOAA 20 is up.
+/// Start of the story, at which NOAA 20 is up.
 const UTC: &str = "2026-08-12T11:15:30Z";
 
-/// An operator whose actions are listed: a click, a filled field, a key outside a field.
+/// Operator with a list of actions: a click, a filled field, a key outside a field.
 struct Operator {
     window: RealWindow,
     actions: Vec<String>,

@@ -1,5 +1,4 @@
-//! The step of the set-up about the elements: a source that is typed there is added, or the step says
-//! why it is not.
+//! Step of the set-up about the elements: Azel adds a typed source, or says why not.
 
 use std::{
     path::{Path, PathBuf},
@@ -21,7 +20,7 @@ use crate::window_stories::{
     setup::{self, NEXT, press, write_site},
 };
 
-/// The set-up at the step about the elements, with the form of a file.
+/// Returns the set-up at the step about the elements, with the form of a file.
 fn at_elements(size: [f32; 2]) -> Window {
     let mut window = setup::window(size);
     write_site(&mut window);
@@ -73,7 +72,7 @@ fn enter_adds_the_typed_source_and_the_next_enter_goes_on() {
         press_enter(&mut window);
         assert_eq!(asked(&mut window), [addition(file("own", PATH))], "{size:?}");
         assert!(is_at(&window, "Elements"), "{size:?}");
-        // The server of another source may take its time.
+        // The server of another source may answer slowly.
         let sources = Arc::make_mut(&mut window.state_mut().model.shown_mut().sources);
         sources.work = SourceWork::Asking;
         settle(&mut window);
@@ -138,7 +137,7 @@ fn a_click_on_another_step_keeps_a_source_that_cannot_be_added() {
         assert!(is_at(&window, "Elements"), "{size:?}");
         assert!(says(&window, "This source is not added yet: type the whole path"), "{size:?}");
         assert_eq!(asked(&mut window), [], "{size:?}");
-        // The way back is open, and keeps what is typed.
+        // The operator can go back, and the form keeps the typed text.
         press(&mut window, "Back");
         press(&mut window, NEXT[2]);
         assert_eq!(text(&window, "Path"), "own.json", "{size:?}");
@@ -198,7 +197,7 @@ fn a_source_that_cannot_be_added_keeps_the_step_and_says_why() {
             "This source is not added yet: wait until the other sources are read.",
         );
         assert_eq!(text(&window, "Name"), "own");
-        // Emptied fields hinder nobody.
+        // Empty fields do not block the next step.
         for field in ["Name", "Path"] {
             write(&mut window, field, "x");
             window.key_press(Key::Backspace);

@@ -1,5 +1,5 @@
-//! The card shows what was measured, with its age, and what the antenna does, whoever began
-//! it.
+//! Card of an antenna, which shows the measured position with its age, and the antenna's activity
+//! regardless of its cause.
 
 use std::{sync::Arc, time::Duration};
 

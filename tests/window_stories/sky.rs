@@ -1,4 +1,4 @@
-//! The sky plot under the pointer: directions, times along the path, a closer look.
+//! Sky plot under the pointer: directions, times along the path, a closer look.
 
 use std::{sync::Arc, time::Duration};
 
@@ -24,7 +24,7 @@ fn window(size: [f32; 2]) -> Window {
     rig::window(size, rig::model(states::holding()))
 }
 
-/// The middle of the sky plot: the zenith.
+/// Returns the middle of the sky plot: the zenith.
 pub(crate) fn zenith(window: &Window) -> Pos2 {
     window.get_by_role(Role::Canvas).rect().center()
 }
@@ -34,7 +34,7 @@ fn label(window: &Window, start: &str) -> Option<String> {
     node.accesskit_node().value()
 }
 
-/// Place of the mark of LOS.
+/// Returns the place of the mark of LOS.
 fn los(window: &Window) -> Pos2 {
     let is_mark = |text: String| text.starts_with("LOS 11:21:") && text.contains("Z, azimuth");
     let mut found = window.get_all_by_label_contains("LOS 11:21:");
@@ -55,7 +55,7 @@ fn the_pointer_over_the_sky_reads_azimuth_and_elevation() {
         settle(&mut window);
         let south = label(&window, "Pointer at azimuth").unwrap();
         assert!(south.starts_with("Pointer at azimuth 180.0°"), "{south}");
-        // Over the card the sky is not read.
+        // The plot does not read the pointer over the card.
         window.hover_at(Pos2::new(size[0] - 30.0, 300.0));
         settle(&mut window);
         assert_eq!(label(&window, "Pointer at azimuth"), None);
@@ -89,7 +89,7 @@ fn a_time_of_the_profile_is_marked_in_the_sky() {
     let in_sky = label(&window, "Path at ").unwrap();
     assert_eq!(in_sky[8..17], in_profile[11..20], "{in_sky} {in_profile}");
 
-    // The arrow keys do the same.
+    // The arrow keys read the path as the pointer does.
     window.hover_at(Pos2::new(30.0, 300.0));
     window.get_by_label_contains("NOAA 20 profile").focus();
     settle(&mut window);
@@ -106,7 +106,7 @@ fn the_wheel_brings_the_sky_closer_and_a_double_click_brings_it_back() {
     for size in rig::sizes() {
         let mut window = window(size);
         let reads = |window: &Window| label(window, "Pointer at azimuth").unwrap();
-        // Between zenith and east, away from marks.
+        // The pointer is between zenith and east, away from marks.
         let at = zenith(&window) + vec2(90.0, 2.0);
         window.hover_at(at);
         settle(&mut window);
@@ -145,7 +145,7 @@ fn plus_and_zero_magnify_the_sky_that_has_the_focus() {
     assert_eq!(window.state().views.stored().strip_hours, None, "the strip keeps its hours");
 }
 
-/// A station with a Satrak and a Rotator Genius beside it.
+/// Returns the texts that the window of `model` paints.
 fn painted(model: azel::model::Model) -> Vec<String> {
     painted::texts(&rig::window(LARGE, model))
 }
@@ -190,7 +190,7 @@ fn all_antennas_stand_in_the_sky_with_the_stop_of_their_azimuth() {
     assert!(label_of_button(&window, "Antenna Satrak").is_some());
     assert!(label_of_button(&window, "Antenna Genius").is_none(), "the loud one is selected");
 
-    // The layer takes the others away.
+    // The layer removes the other antennas.
     window.get_by_role_and_label(Role::Button, "Layers").click();
     settle(&mut window);
     window.get_by_role_and_label(Role::CheckBox, "Other antennas").click();

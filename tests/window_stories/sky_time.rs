@@ -1,4 +1,4 @@
-//! The sky of another time: where satellites and antennas will be by the plan. Nothing moves.
+//! Sky of another time, with the planned places of satellites and antennas. Nothing moves.
 
 use std::sync::Arc;
 
@@ -56,7 +56,7 @@ fn focus(window: &mut Window) {
     settle(window);
 }
 
-/// Shows the sky of a quarter of the plan, by the pointer.
+/// Drags the slider to a quarter of the plan.
 fn drag(window: &mut Window) {
     let slider = window.get_by_role_and_label(Role::Slider, "Time of the sky").rect();
     window.drag_at(slider.left_center() + vec2(6.0, 0.0));
@@ -68,14 +68,14 @@ fn drag(window: &mut Window) {
     settle(window);
 }
 
-/// The view with the sky of a later time.
+/// Returns the view with the sky of a later time.
 pub(crate) fn later(size: [f32; 2]) -> Window {
     let mut window = window(size);
     drag(&mut window);
     window
 }
 
-/// Where NOAA 20 is drawn, in words.
+/// Returns the name of the mark of NOAA 20, which has its place in words.
 fn noaa_20(window: &Window) -> Option<String> {
     let mark = window.query_by_label_contains("NOAA 20, azimuth")?;
     mark.accesskit_node().label()
@@ -223,8 +223,8 @@ fn without_a_schedule_there_is_only_now() {
     assert!(says(&window, "Sky now."));
 }
 
-/// Two passes of the antenna, hours apart: the way from the end of the first to the start of
-/// the second leads from 60° of elevation over the zenith to 60°.
+/// Returns two passes of the antenna, hours apart. The way from the end of the first to the start
+/// of the second leads from 60° of elevation over the zenith to 60°.
 fn two_entries(model: &mut Model, between: BetweenPasses) -> [Entry; 2] {
     let mut station = (*model.station).clone();
     station.antennas[0].automatic.between_passes = between;
@@ -268,7 +268,7 @@ fn an_antenna_points_along_its_pass_and_holds_slews_and_waits_between() {
     let (doing, elevation_deg) = pose(&model, middle);
     assert_eq!(doing, PlannedActivity::Tracks((first.pass.satellite, first.pass.aos)));
     assert!((elevation_deg - look.direction.elevation_deg()).abs() < 1e-9);
-    // It sets out a minute early: 12 s of set-up, 40 s of slew.
+    // The antenna sets out a minute early: 12 s of set-up, 40 s of slew, and the rest to spare.
     for (before_s, doing, elevation_deg) in [
         (130.0, PlannedActivity::Stays, 60.0),
         (101.0, PlannedActivity::Stays, 60.0),

@@ -1,4 +1,4 @@
-//! "Test from here" beside the form of a unit's source.
+//! Button "Test from here" beside the form of a unit's source.
 
 use azel::{
     contract::{
@@ -31,7 +31,7 @@ const NAME: &str = "NOAA 20 (JPSS-1)";
 const SECRET: &str = "hunter2-password";
 const URL: &str = "https://example.org/weather.txt";
 
-/// A form with both sources typed, one of which is shown.
+/// Form with both sources typed, one of which is shown.
 struct Form {
     model: Model,
     state: SourceTestState,

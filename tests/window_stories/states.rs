@@ -15,7 +15,7 @@ use jiff::Timestamp;
 
 use crate::window_stories::rig::{NOAA_20, ago, model, now, quiet};
 
-/// A position that has just come in.
+/// Returns a position that has just come in.
 pub(crate) fn measured(azimuth_deg: f64, elevation_deg: f64, motion: AxisMotion) -> Measured {
     let axis = Axis {
         angle_deg: Some(90.0),
@@ -34,7 +34,7 @@ pub(crate) fn measured(azimuth_deg: f64, elevation_deg: f64, motion: AxisMotion)
     }
 }
 
-/// The antenna stands, without any intent to move.
+/// Returns the state of an antenna that stands, without any intent to move.
 pub(crate) fn holding() -> Snapshot {
     let mut snapshot = quiet();
     snapshot.state.measured = Some(measured(343.1, 5.0, AxisMotion::Still));
@@ -43,19 +43,19 @@ pub(crate) fn holding() -> Snapshot {
     snapshot
 }
 
-/// The antenna moves without a command from Azel.
+/// Returns the state of an antenna that moves without a command from Azel.
 pub(crate) fn moving() -> Snapshot {
     let mut snapshot = holding();
     snapshot.state.measured = Some(measured(120.0, 30.0, AxisMotion::Plus));
     snapshot
 }
 
-/// The operator moves the antenna by hand.
+/// Returns the state of an antenna that the operator moves by hand.
 pub(crate) fn manual() -> Snapshot {
     Snapshot { intent: Intent::Manual, ..holding() }
 }
 
-/// Target of a track of NOAA 20.
+/// Returns the target of a track of NOAA 20.
 pub(crate) fn target() -> TrackTarget {
     TrackTarget {
         catalog_number: NOAA_20,
@@ -66,12 +66,12 @@ pub(crate) fn target() -> TrackTarget {
     }
 }
 
-/// LOS of NOAA 20, to the second.
+/// Returns the LOS of NOAA 20, to the second.
 pub(crate) fn los() -> Timestamp {
     "2026-08-12T11:21:27Z".parse().unwrap()
 }
 
-/// On-board track of NOAA 20, `off_deg` above its direction.
+/// Returns the state of an on-board track of NOAA 20 that points `off_deg` too high.
 pub(crate) fn tracking(off_deg: f64) -> Snapshot {
     let wanted = model(quiet()).sky.selected.unwrap().look.direction;
     let (azimuth_deg, elevation_deg) = (wanted.azimuth_deg(), wanted.elevation_deg());
@@ -84,7 +84,7 @@ pub(crate) fn tracking(off_deg: f64) -> Snapshot {
     snapshot
 }
 
-/// The unit has its program on, in this phase.
+/// Returns the state of a unit whose program is on, in this phase.
 pub(crate) fn program(phase: Phase, motion: AxisMotion) -> Snapshot {
     let mut snapshot = Snapshot { intent: Intent::Track, target: Some(target()), ..quiet() };
     snapshot.state.measured = Some(measured(205.0, 5.0, motion));
@@ -103,7 +103,7 @@ fn hold_noaa_20(snapshot: &mut Snapshot) {
     snapshot.state.on_board.window = Some((now(), los()));
 }
 
-/// Sentence of the first antenna.
+/// Returns the sentence about the first antenna.
 pub(crate) fn sentence(model: &Model) -> String {
     azel::ui::state_sentence::state_sentence(model, &model.antennas[0]).text()
 }

@@ -1,4 +1,4 @@
-//! Several stations in one window, one at a time.
+//! Several stations in one window, which shows one at a time.
 
 use std::{fmt::Write as _, fs, path::Path};
 
@@ -132,7 +132,7 @@ fn open(path: &Path, clock: Clock) -> RealWindow {
 impl Two {
     fn open() -> Self {
         let folder = tempfile::tempdir().unwrap();
-        // Read beforehand: the clocks of the units start with that of the window.
+        // Read the elements first, because the clocks of the units start with the window's clock.
         let catalog = bundled().unwrap();
         let elements = rig::station().favourites.numbers().into_iter();
         let elements: Vec<_> =
@@ -152,7 +152,7 @@ impl Two {
         two
     }
 
-    /// Waits until this station is in the window and its unit is heard.
+    /// Waits until this station is in the window and its unit answers.
     fn wait_for(&mut self, name: &str) {
         step_until(&mut self.window, "the station is in the window", |model| {
             model.station.name == name && !model.stations.is_changing && is_heard(model)
@@ -171,7 +171,7 @@ impl Two {
 
     fn track(&mut self) {
         step_until(&mut self.window, "the passes are planned", |model| {
-            // The bars of the strip change their places with the first plan.
+            // Wait for the first plan, because it changes the places of the bars in the strip.
             model.schedule.made_at.is_some() && model.pass_of(NOAA_20).is_some()
         });
         self.window.get_by_label_contains("NOAA 20, 11:08Z to 11:21Z").click();
@@ -208,7 +208,7 @@ fn the_window_changes_to_another_station_and_back() {
         two.window.state().model().antenna().unwrap().config.connection.address,
         two.units[1].address.to_string()
     );
-    // It begins as the other one looks, and keeps its own look from then on.
+    // The second station begins with the look of the first, and keeps its own look from then on.
     assert_eq!(theme::name(&two.window.ctx), ThemeName::Light);
     two.window.key_press_modifiers(Modifiers::COMMAND, Key::L);
     two.window.run_steps(3);

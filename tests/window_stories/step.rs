@@ -1,4 +1,4 @@
-//! Turning an axis by a set amount, and the rate of a jog.
+//! Steps of an axis by a set amount, and the rate of a jog.
 
 use azel::{contract::driver::Command, model::UiCommand, station::AntennaId};
 use egui::{Key, Role};

@@ -1,4 +1,4 @@
-//! STOP, whatever is open and whatever the result of the last one.
+//! STOP, with any popup open and after any result of the previous STOP.
 
 use std::time::Duration;
 

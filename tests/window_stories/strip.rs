@@ -1,4 +1,5 @@
-//! The strip of Operate: what the mount can track, or what the schedule takes and leaves out.
+//! Strip of Operate: passes that the mount can track, or passes that the schedule takes and leaves
+//! out.
 
 use std::sync::Arc;
 
@@ -26,13 +27,13 @@ fn with_plan(size: [f32; 2]) -> Window {
     rig::window(size, model)
 }
 
-/// Returns `true` if it reads like "11:01Z to 11:14Z", as in the strip alone; in lanes after a
-/// name.
+/// Returns `true` if the text reads like "11:01Z to 11:14Z". The strip has such a text alone; lanes
+/// have it after a name.
 fn is_times(words: &str) -> bool {
     words.split(" to ").all(|time| time.ends_with('Z')) && words.contains(" to ")
 }
 
-/// The bars of the strip, as they are read aloud.
+/// Returns the bars of the strip, as a screen reader reads them.
 fn bars(window: &Window) -> Vec<String> {
     let options = window.query_all_by_role(Role::ListBoxOption);
     let names = options.filter_map(|node| node.accesskit_node().label());
@@ -82,7 +83,8 @@ fn the_pointer_reads_how_a_pass_stands_and_a_key_selects_it() {
     assert!(matches!(&commands[..], [UiCommand::SelectPass(_)]), "{commands:?}");
 }
 
-/// A day on which the pass that is up was missed in part, and one before it was tracked.
+/// Adds a day on which the antenna missed a part of the pass that is up, and tracked a pass before
+/// it.
 fn after_two_passes(model: &mut Model) {
     let upcoming = model.pass_lists.favourites.upcoming(model.now);
     let key = upcoming.iter().find(|predicted| !predicted.is_always_up()).unwrap().key();

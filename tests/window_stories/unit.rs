@@ -30,7 +30,7 @@ use tokio::sync::oneshot;
 
 use crate::window_stories::rig;
 
-/// Longer than any step of a story takes.
+/// Time limit of any wait of a story.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 const DEFAULT_DELAY: RangeInclusive<Duration> =
@@ -46,12 +46,12 @@ pub(crate) struct Unit {
 }
 
 impl Unit {
-    /// A unit with the elements of the station, and a clock that starts at `utc`.
+    /// Starts a unit with the elements of the station, and a clock that starts at `utc`.
     pub(crate) fn start(utc: Timestamp) -> Self {
         Self::with_delay(utc, DEFAULT_DELAY)
     }
 
-    /// Like [`Self::start`], with delayed answers.
+    /// Starts a unit as [`Self::start`] does, with delayed answers.
     pub(crate) fn with_delay(utc: Timestamp, reply_delay: RangeInclusive<Duration>) -> Self {
         let catalog = bundled().unwrap();
         let favourites = rig::station().favourites.numbers().into_iter();
@@ -59,7 +59,7 @@ impl Unit {
         Self::run(Options { reply_delay, ..holding(elements, utc) })
     }
 
-    /// A unit with these elements, and a clock that starts at `utc`.
+    /// Starts a unit with these elements, and a clock that starts at `utc`.
     pub(crate) fn of_elements(elements: Vec<Elements>, utc: Timestamp) -> Self {
         Self::run(holding(elements, utc))
     }
@@ -82,14 +82,14 @@ impl Unit {
         Self { address, control, _end: end }
     }
 
-    /// The station with this unit as its antenna.
+    /// Returns the station with this unit as its antenna.
     pub(crate) fn station(&self) -> Station {
         let mut antenna = Antenna::satrak("Satrak", &self.address.to_string());
         antenna.connection.put(&ELEMENT_FILE, BUNDLED_FILE).unwrap();
         Station { antennas: vec![antenna], ..rig::station() }
     }
 
-    /// Status that the unit reports to a new client, if it accepts one.
+    /// Returns the status that the unit reports to a new client, if it accepts one.
     pub(crate) fn status(&self) -> Option<Status> {
         let mut stream = TcpStream::connect(self.address).ok()?;
         stream.set_read_timeout(Some(PATIENCE)).ok()?;
@@ -112,17 +112,17 @@ fn holding(elements: Vec<Elements>, utc: Timestamp) -> Options {
     }
 }
 
-/// A running clock that starts at `utc`.
+/// Returns a running clock that starts at `utc`.
 pub(crate) fn clock_from(utc: Timestamp) -> Clock {
     Clock::at_speed(utc, NonZeroU32::MIN)
 }
 
-/// A window with the real app on the settings at `path`.
+/// Opens a window with the real app on the settings at `path`.
 pub(crate) fn open(path: &Path, outside: impl Into<Outside>) -> RealWindow {
     open_as(path, outside, |app| app)
 }
 
-/// Like [`open`], with an app that was changed before its first frame.
+/// Opens a window as [`open`] does, with an app that `change` alters before its first frame.
 pub(crate) fn open_as(
     path: &Path,
     outside: impl Into<Outside>,
@@ -140,7 +140,7 @@ pub(crate) fn open_as(
         .build_eframe(move |cc| change(App::new(&cc.egui_ctx, &settings, outside).unwrap()))
 }
 
-/// Operate on the demo station, once its antennas are there.
+/// Opens Operate on the demo station, once its antennas are there.
 pub(crate) fn open_demo(folder: &tempfile::TempDir) -> RealWindow {
     let mut window = open(&folder.path().join("station.toml"), Clock::system());
     step_until(&mut window, "the set-up and the antennas", |model| {
@@ -159,7 +159,7 @@ pub(crate) fn step_until(window: &mut RealWindow, what: &str, is_so: impl Fn(&Mo
     });
 }
 
-/// The only place that sleeps: real sockets need waiting.
+/// Waits until the condition holds. Only this function sleeps, because real sockets need waiting.
 pub(crate) fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
     let end = Instant::now() + PATIENCE;
     while !is_so() {

@@ -1,4 +1,4 @@
-//! The upload part alone, and common steps of its stories.
+//! Upload part alone, and common steps of its stories.
 
 use azel::{
     astro::time::add_seconds,
@@ -38,7 +38,7 @@ pub(crate) struct Part {
 
 pub(crate) type Window = Harness<'static, Part>;
 
-/// The part alone, of this width.
+/// Opens the part alone, with this width.
 pub(crate) fn part(width: f32, uploads: Uploads) -> Window {
     let mut model = rig::model(states::holding());
     model.shown_mut().uploads = uploads.into();
@@ -64,7 +64,7 @@ pub(crate) fn settle(window: &mut Window) {
     window.run_steps(4);
 }
 
-/// Commands since the last call, except requests for the list of kept files.
+/// Returns the commands since the last call, except requests for the list of kept files.
 pub(crate) fn asked(window: &mut Window) -> Vec<Ask> {
     settle(window);
     let commands = std::mem::take(&mut window.state_mut().commands);
@@ -125,7 +125,7 @@ pub(crate) fn uploaded() -> Uploaded {
     }
 }
 
-/// The part while an order of the antenna is in `stage`.
+/// Returns the uploads while an order of the antenna is in `stage`.
 pub(crate) fn at(stage: Stage) -> Uploads {
     Uploads { antenna: "Satrak".to_owned(), stage, ..Uploads::default() }
 }
@@ -141,7 +141,7 @@ pub(crate) fn begun(window: &mut Window) -> Order {
     }
 }
 
-/// The part with file and user typed; the rest is there.
+/// Opens the part, and types file and user; the other fields are filled in.
 pub(crate) fn typed(width: f32, uploads: Uploads) -> Window {
     let mut window = part(width, uploads);
     write(&mut window, "File", FILE);

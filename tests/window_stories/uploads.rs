@@ -286,7 +286,8 @@ fn without_elements_an_old_file_can_still_be_put_back() {
     assert!(!is_disabled(&window, &back));
 }
 
-/// Key that puts `entry` back: it tells two files of the same second apart.
+/// Returns the name of the key that puts `entry` back. The name tells two files of the same second
+/// apart.
 fn put_back(origin: &str, entry: &KeptEntry) -> String {
     let hash = entry.file.sha256.to_string();
     format!("Put back the file of {origin}, {}", &hash[..12])
@@ -331,14 +332,14 @@ fn the_elements_view_opens_the_part_in_place_of_the_inspector() {
     }
 }
 
-/// The Elements view with the upload open, in the smallest window.
+/// Opens the Elements view with the upload, in the smallest window.
 fn opened_small(uploads: Uploads) -> rig::Window {
     let mut model = rig::model(states::holding());
     model.shown_mut().uploads = uploads.into();
     opened(rig::SMALL, model)
 }
 
-/// The Elements view with the upload open.
+/// Opens the Elements view with the upload.
 fn opened(size: [f32; 2], mut model: Model) -> rig::Window {
     model.view = View::Elements;
     let mut window = rig::window(size, model);
@@ -359,7 +360,7 @@ fn the_form_is_in_sight_above_a_list_of_a_hundred_satellites() {
         let CatalogState::Ready(catalog) = &model.catalog else { panic!("there are elements") };
         let others = catalog.iter().map(azel::orbit::Elements::catalog_number);
         let others = others.filter(|number| *number != NOAA_20);
-        // The one that is inspected is always in the file.
+        // The file always contains the inspected object.
         let numbers: Vec<u32> = [NOAA_20].into_iter().chain(others).take(SATELLITES).collect();
         let favourites = &mut Arc::make_mut(&mut model.shown_mut().station).favourites;
         *favourites = favourites.with_numbers(&numbers);

@@ -1,4 +1,4 @@
-//! A unit that works in whole degrees shows no decimals of its own.
+//! Unit with whole degrees, for which Azel shows no decimals.
 
 use azel::{
     astro::AzEl,

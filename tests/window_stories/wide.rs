@@ -1,4 +1,4 @@
-//! Wide and high windows use their room: two cards, a lane for each antenna, more hours.
+//! Wide and high windows, which use their room: two cards, a lane for each antenna, more hours.
 
 use std::{collections::BTreeSet, sync::Arc};
 
@@ -19,7 +19,7 @@ use crate::window_stories::{
 
 const WIDE: [[f32; 2]; 2] = [[1920.0, 1080.0], [2560.0, 1440.0]];
 
-/// A station with a Satrak, a Rotator Genius and an RC2000C.
+/// Returns a station with a Satrak, a Rotator Genius and an RC2000C.
 pub(crate) fn three() -> Model {
     let mut model = rig::model(states::holding());
     let genius = makes::model(makes::pair(), makes::pair_at(Intent::Position));
@@ -104,7 +104,7 @@ fn each_card_drives_its_own_antenna() {
         panic!("{commands:?}")
     };
     assert_eq!((*antenna, pass.0), (AntennaId(2), NOAA_20));
-    // The antenna that was selected before keeps its card beside the new one, and its place.
+    // The previously selected antenna keeps its card and its place beside the new one.
     for (selected, shown) in [(2, [1, 3]), (0, [1, 3]), (1, [1, 2]), (2, [2, 3])] {
         window.state_mut().model.selected_antenna = selected;
         settle(&mut window);

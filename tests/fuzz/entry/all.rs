@@ -17,7 +17,7 @@ pub(crate) mod rotator_genius;
 pub(crate) mod satrak;
 pub(crate) mod station;
 
-/// Feeds bytes to a function under test.
+/// Function that feeds bytes to the code under test.
 pub(crate) type Run = fn(&[u8]);
 
 /// All functions, with the names of their targets and folders.

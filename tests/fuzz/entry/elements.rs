@@ -1,5 +1,5 @@
-//! Any file of elements: read, written in every form and read again, with a search for
-//! passes on a day of its objects.
+//! Fuzzing of element files: the entry reads a file, writes it in every form, reads it again and
+//! searches for passes of its objects.
 
 use azel::{
     astro::{HorizonMask, Site, time},
@@ -10,16 +10,15 @@ use azel::{
 };
 use jiff::{SignedDuration, Timestamp};
 
-/// Maximum number of objects of a file whose passes are searched for.
+/// Max number of objects of a file that get a pass search.
 const MAX_OBJECTS: usize = 4;
-/// Maximum number of passes a day: they come once or twice a revolution, which takes over
-/// an hour.
+/// Max number of passes a day. Passes come once or twice a revolution, which takes over an hour.
 const MAX_PASSES: usize = 40;
-/// Maximum number of states for a day of one object; the worst of the catalog takes some
+/// Max number of states computed for a day of one object; the worst of the catalog needs some
 /// hundreds.
 const MAX_EFFORT: u64 = 50_000;
 
-/// Distance from the horizon within which either side is right, degrees.
+/// Tolerance at the horizon, degrees: within it, up and down are both right.
 const LEVEL_DEG: f64 = 1e-3;
 
 pub(crate) fn run(bytes: &[u8]) {
@@ -34,7 +33,7 @@ pub(crate) fn run(bytes: &[u8]) {
     }
 }
 
-/// OMM keeps every bit; a TLE keeps a value that it has carried once.
+/// Checks that OMM keeps every bit, and that a TLE keeps every value after one trip.
 fn comes_back(elements: &[Elements]) {
     let written = |write: &dyn Fn(&mut Vec<u8>)| {
         let mut out = Vec::new();
@@ -56,7 +55,7 @@ fn comes_back(elements: &[Elements]) {
     assert_eq!(again.elements, carried.elements);
 }
 
-/// The day of the epoch, and a day common to all.
+/// Checks the day of the epoch, and one fixed day for all objects.
 fn two_days(elements: &Elements) {
     let site = Site::new(41.02, 29.17, 100.0).expect("a place");
     let propagator = Propagator::new(elements).expect("it was read");
@@ -104,9 +103,8 @@ fn in_order(found: &[Pass], from: Timestamp, to: Timestamp) {
     }
 }
 
-/// Returns `true` if the states of this day are those of a flying object. Years from the epoch, the
-/// drag terms may move a satellite in another way than its velocity says, and no pass of it is
-/// right or wrong.
+/// Returns `true` if the position changes of this day match the velocities. Years from the epoch,
+/// the drag terms may move a satellite against its velocity, and no pass is right or wrong.
 fn flies(propagator: &Propagator, from: Timestamp) -> bool {
     const SHARE: f64 = 0.01;
     let second = SignedDuration::from_secs(1);
@@ -118,12 +116,13 @@ fn flies(propagator: &Propagator, from: Timestamp) -> bool {
     })
 }
 
-/// Between its passes a satellite is down, within them it is up.
+/// Checks that the satellite is up within its passes and down between them.
 fn seen_when_up(propagator: &Propagator, search: &PassSearch, found: &[Pass]) {
     for minute in (0..24 * 60).step_by(10) {
         let at = search.start + SignedDuration::from_mins(minute);
         let Ok(look) = propagator.look_from(search.site.airless(), at) else {
-            // After its epoch, a decayed satellite stays down; before it, the search ends too.
+            // A satellite that decayed after its epoch stays down. Before the epoch, the search
+            // ends here too.
             break;
         };
         let elevation_deg = look.direction.elevation.degrees();

@@ -1,5 +1,5 @@
-//! Any bytes in the small files beside the station: lock-outs, list of sources, index of
-//! the library and its notes of unfinished sources.
+//! Any bytes in the small files beside the station: lock-outs, list of sources, index of the
+//! library and its notes of unfinished sources.
 
 use std::{fs, path::Path};
 
@@ -25,13 +25,13 @@ pub(crate) fn run(bytes: &[u8]) {
     library(folder.path());
 }
 
-/// An unreadable file locks everything out, never nothing.
+/// Checks that an unreadable file locks out every unit.
 fn lock_outs(path: &Path) {
     let now = Timestamp::UNIX_EPOCH;
     let (mut first, problem) = LockOuts::load(path, now);
     let unit = Antenna::satrak("Dish", "10.0.0.1:4001").connection;
     assert!(problem.is_none() || first.find(&unit).is_some());
-    // Names the unit, so that saving ends the lock-out of all.
+    // Naming the unit ends the lock-out of all units when the file is saved.
     let own = first.find(&unit).cloned();
     first.set(&unit, own, std::iter::empty());
     let text = first.text().expect("what was loaded can be saved");
@@ -50,8 +50,8 @@ fn sources(path: &Path) {
     }
 }
 
-/// No content of its notes keeps the library from reading a source, or from reporting that
-/// it was set aside.
+/// Checks that no content of its notes keeps the library from reading a source, or from reporting
+/// that the source was set aside.
 fn library(folder: &Path) {
     let own = folder.join("own.tle");
     fs::write(&own, "").expect("a place on the disk");

@@ -1,4 +1,4 @@
-//! Any file of a horizon mask.
+//! Any bytes as a file of a horizon mask.
 
 use azel::astro::{Angle, HorizonMask};
 

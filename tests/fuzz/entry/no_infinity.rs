@@ -1,7 +1,7 @@
 //! Search for numbers that are infinite or NaN in any value.
 
-/// Returns `true` if all numbers in the `Debug` text of a value are finite. Texts within it may
-/// hold anything.
+/// Returns `true` if all numbers in the `Debug` text of a value are finite. The function ignores
+/// quoted texts.
 pub(crate) fn is_finite(debug: &str) -> bool {
     let mut bare = String::with_capacity(debug.len());
     let (mut is_text, mut is_escaped) = (false, false);

@@ -1,5 +1,5 @@
-//! Any bytes on the line of an RC2000C: raw, with software parity, and each line of them
-//! as a good frame.
+//! Any bytes on the line of an RC2000C: raw, with software parity, and each line as the content of
+//! a good frame.
 
 use azel::protocol::{
     Parity,
@@ -47,7 +47,7 @@ fn stream(bytes: &[u8]) {
     }
 }
 
-/// A frame with code and data behind the header chosen by `choice`.
+/// Feeds a frame with `code_and_data` behind the header that `choice` selects.
 fn framed(choice: u8, code_and_data: &[u8]) {
     const ETX: u8 = 0x03;
     let header = [0x02, 0x06, 0x15][usize::from(choice % 3)];

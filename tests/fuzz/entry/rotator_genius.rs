@@ -4,14 +4,14 @@ use azel::protocol::rotator_genius::{
     Acknowledgement, Decoder, Layout, MAX_NOISE_BYTES, Received, Reply, Request,
 };
 
-/// Less than the maximum that waits in the decoder.
+/// Bytes in one piece; fewer than the max that waits in the decoder.
 const PIECE: usize = 2048;
 
 pub(crate) fn run(bytes: &[u8]) {
     let whole = decode(bytes, PIECE);
     assert_eq!(decode(bytes, 1 + bytes.len() % 73), whole);
     every_byte_is_told(bytes);
-    // A simulator reads requests from the beginning of one.
+    // The simulator expects the first byte to begin a request.
     for start in (0..bytes.len()).filter(|at| bytes[*at] == b'|').take(16) {
         let rest = &bytes[start..];
         for length in (2..=rest.len().min(40)).filter(|length| {
@@ -36,7 +36,8 @@ fn decode(bytes: &[u8], piece: usize) -> Vec<Received> {
     seen
 }
 
-/// Bytes are replies or noise; only the end of the last name is made up.
+/// Checks that the decoder reports every byte as a reply or as noise. Only the end of the last name
+/// may be added.
 fn every_byte_is_told(bytes: &[u8]) {
     let mut decoder = Decoder::new();
     let mut seen = Vec::new();
@@ -47,9 +48,9 @@ fn every_byte_is_told(bytes: &[u8]) {
     let unfinished = decoder.unfinished_bytes();
     let told: usize = seen.iter().map(length).sum();
     let go_tos = seen.iter().filter(|received| is_go_to(received)).count();
-    // Noise in front of an unfinished reply is held back until it ends.
+    // The decoder holds noise before an unfinished reply back until the reply ends.
     let held: usize = decoder.idle().iter().map(length).sum();
-    // A go-to is acknowledged with three bytes, or with three digits more.
+    // The acknowledgement of a go-to has three bytes, or three more digits.
     let most = told + 3 * go_tos + held.max(unfinished) + 12;
     assert!(told + unfinished <= bytes.len() && bytes.len() <= most, "{told} {held} {unfinished}");
 }

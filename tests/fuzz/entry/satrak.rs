@@ -1,5 +1,4 @@
-//! Any bytes on the line of a Satrak: raw, and each line of them as the payload of a good
-//! frame.
+//! Any bytes on the line of a Satrak: raw, and each line as the payload of a good frame.
 
 use azel::protocol::satrak::{
     Decoder, Frame, MAX_LINE_BYTES, Meaning, ReceivedLine, Reply, Request, Setting, encode,
@@ -33,14 +32,14 @@ fn stream(bytes: &[u8]) {
     let whole = lines(bytes, MAX_LINE_BYTES);
     let total: usize = whole.iter().map(ReceivedLine::length).sum();
     assert!(total <= bytes.len());
-    // An over-long line is given up where the piece ends.
+    // The decoder gives an over-long line up at the end of a piece.
     if whole.iter().all(|line| line.length() <= MAX_LINE_BYTES) {
         assert_eq!(lines(bytes, 1 + bytes.len() % 41), whole);
     }
     for line in whole {
         for is_greeting in [false, true] {
             let shown = line.without_secrets(is_greeting);
-            // Each placeholder is shorter than the bytes it replaces, or one longer.
+            // Placeholders may be longer than the secrets they replace.
             assert!(shown.bytes.len() <= 10 * (MAX_LINE_BYTES + 1));
         }
         match &line.frame {
@@ -52,7 +51,7 @@ fn stream(bytes: &[u8]) {
 
 fn framed(payload: &str) {
     let bytes = encode(payload);
-    // LF does not count.
+    // The length limit does not count LF.
     if payload.is_empty() || bytes.len() - 1 > MAX_LINE_BYTES {
         return;
     }
@@ -77,7 +76,7 @@ fn understood(frame: &Frame) {
     if let Ok(request) = Request::parse(frame) {
         assert!(is_finite(&format!("{request:?}")), "{request:?}");
         let again = Request::parse(&Frame::from_payload(&request.payload()));
-        // Places are sent with two decimals, whatever was received.
+        // Azel sends positions with two decimals, even if it received more.
         if !matches!(request, Request::Setting(Setting::GpsSettings(_))) {
             assert_eq!(again.as_ref(), Ok(&request));
         }

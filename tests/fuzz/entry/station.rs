@@ -1,5 +1,5 @@
-//! Any station file: loaded, saved and loaded again, it means the same, and what could not be read
-//! is still there.
+//! Any station file: after loading, saving and loading again, it means the same and keeps its
+//! unreadable parts.
 
 use std::fs;
 
@@ -42,7 +42,8 @@ pub(crate) fn run(bytes: &[u8]) {
     }
 }
 
-/// Without names and ids: a missing one is filled in.
+/// Returns the places of the notes, without names and ids, because the loader fills in a missing
+/// one.
 fn places(notes: &[Note]) -> Vec<String> {
     let key = |place: &str| place.rsplit('.').next().map(str::to_owned);
     let is_filled_in = |place: &str| key(place).is_some_and(|key| key == "name" || key == "id");

@@ -1,4 +1,4 @@
-//! The faults of a rehearsal, at random times.
+//! Faults of a rehearsal at random times.
 
 use azel::{
     astro::time::{add_seconds, seconds_between},
@@ -9,9 +9,9 @@ use std::time::Duration;
 
 use crate::common::dice::Dice;
 
-/// Least drift of the unit's clock over the whole rehearsal, seconds.
+/// Min drift of the unit's clock over the whole rehearsal, seconds.
 const MIN_DRIFT_S: f64 = 1.0;
-/// Largest share of the rehearsal that an outage or the power cut takes.
+/// Max share of the rehearsal that an outage or the power cut takes.
 const MAX_OUTAGE: f64 = 0.05;
 
 /// A stretch of time.
@@ -32,7 +32,7 @@ impl Span {
         self.from <= at && at < self.to
     }
 
-    /// Seconds that both have in common.
+    /// Returns the seconds that both spans have in common.
     pub(super) fn overlap_s(&self, other: Self) -> f64 {
         seconds_between(self.from.max(other.from), self.to.min(other.to)).max(0.0)
     }
@@ -40,14 +40,14 @@ impl Span {
 
 #[derive(Debug)]
 pub(super) struct Faults {
-    /// Computer and units have no power.
+    /// Power cut of computer and units.
     pub(super) power_cut: Span,
-    /// One for each antenna.
+    /// Link outages, one for each antenna.
     pub(super) outages: [Span; 3],
-    /// The computer's clock is wrong until the time service sets it.
+    /// Wrong clock of the computer, until the time service sets it.
     pub(super) clock: Span,
     pub(super) clock_by_s: f64,
-    /// The server refuses.
+    /// Refusals by the server of elements.
     pub(super) sources: Span,
     pub(super) drift_s_day: f64,
     pub(super) mechanics: Mechanics,
@@ -64,7 +64,7 @@ pub(super) enum Event {
 impl Faults {
     pub(super) fn draw(seed: u64, from: Timestamp, hours: f64) -> Self {
         let dice = &mut Dice::new(seed);
-        // Each fault has a part of the rehearsal to itself.
+        // Each fault has its own part of the rehearsal.
         let mut within = |[first, last]: [f64; 2], [min_s, max_s]: [f64; 2]| {
             let max_s = max_s.min(MAX_OUTAGE * hours * 3600.0);
             let begin = add_seconds(from, dice.between(first, last) * hours * 3600.0);
@@ -115,7 +115,7 @@ impl Faults {
         outages.chain(others).collect()
     }
 
-    /// Faults during which an antenna, counted from 0, owes nothing.
+    /// Returns the faults during which an antenna, counted from 0, need not keep the promise.
     pub(super) fn excused(&self, antenna: usize) -> Vec<Span> {
         let outage = self.outages.get(antenna).copied();
         [self.power_cut, self.clock].into_iter().chain(outage).collect()

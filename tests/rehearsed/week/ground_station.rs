@@ -1,4 +1,4 @@
-//! The station: a computer that can lose its power and units that go on by themselves.
+//! The station: a computer that can lose its power, and units that keep running.
 
 use std::{
     collections::BTreeMap,
@@ -30,7 +30,7 @@ use tokio::task::JoinHandle;
 use super::{faults::Faults, source::ElementServer};
 
 const SATELLITES: usize = 60;
-/// Revolutions a day of a low orbit.
+/// Revolutions a day that a low orbit exceeds.
 const LOW_REV_DAY: f64 = 12.0;
 
 /// A unit and its link.
@@ -71,7 +71,7 @@ pub(super) struct GroundStation {
     folder: tempfile::TempDir,
     units: Arc<Vec<Linked>>,
     true_clock: Clock,
-    /// Seconds by which the computer's clock is ahead, in milliseconds.
+    /// Lead of the computer's clock over true time, milliseconds.
     ahead_ms: Arc<AtomicI64>,
     running: Option<(InPlace, JoinHandle<()>)>,
     _jobs: job::InPlace,
@@ -116,7 +116,7 @@ impl GroundStation {
         }
     }
 
-    /// Starts the computer.
+    /// Starts the station on the computer.
     pub(super) fn start(&mut self) {
         let place = |name: &str| Some(self.folder.path().join(name));
         let settings = Settings {
@@ -165,12 +165,13 @@ impl GroundStation {
         self.units[antenna].set_down(is_down);
     }
 
-    /// Sets the clock of the computer.
+    /// Steps the clock of the computer by `by_s` seconds.
     pub(super) fn step_clock(&self, by_s: f64) {
         self.ahead_ms.fetch_add((by_s * 1e3).round() as i64, Ordering::Relaxed);
     }
 
-    /// Computer and units lose their power: nothing reaches a unit any more, and the files stay as they are.
+    /// Cuts the power of computer and units. No request reaches a unit any more, and the files stay
+    /// unchanged.
     pub(super) async fn cut_power(&mut self) {
         for linked in self.units.iter() {
             linked.set_down(true);
@@ -194,7 +195,7 @@ impl GroundStation {
     }
 }
 
-/// All files below a folder with their content.
+/// Returns all files below a folder with their content.
 fn files_in(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut files = BTreeMap::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -208,7 +209,7 @@ fn files_in(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     files
 }
 
-/// The favourites of a new station, and satellites from all over the catalog.
+/// Returns elements of the default favourites, and of low satellites from all over the catalog.
 fn satellites() -> Vec<Elements> {
     let all = bundled().unwrap();
     let known = Station::default().favourites.numbers();
@@ -227,7 +228,7 @@ fn satellites() -> Vec<Elements> {
     chosen
 }
 
-/// The demo station with all rules on that it needs to go on without the operator.
+/// Returns the demo station with all rules on that it needs to run without the operator.
 fn station(elements: &[Elements], faults: &Faults) -> Station {
     let address = |port: u16| format!("127.0.0.1:{port}");
     let addresses =

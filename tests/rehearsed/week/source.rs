@@ -11,7 +11,7 @@ use std::{
     time::Duration,
 };
 
-/// Longest wait for a client's request.
+/// Max wait for a client's request.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 pub(super) struct ElementServer {
@@ -49,7 +49,7 @@ impl ElementServer {
         format!("http://{}/elements", self.address)
     }
 
-    /// Answers with 403 from now on, or with the elements again.
+    /// Sets whether the server answers with 403 or with the elements.
     pub(super) fn set_failing(&self, is_failing: bool) {
         self.shared.is_failing.store(is_failing, Ordering::Relaxed);
     }
@@ -62,7 +62,7 @@ impl ElementServer {
 impl Drop for ElementServer {
     fn drop(&mut self) {
         self.shared.is_over.store(true, Ordering::Relaxed);
-        // Wakes the thread.
+        // The connection wakes the thread.
         let _ = TcpStream::connect(self.address);
     }
 }
@@ -75,6 +75,6 @@ fn answer(mut stream: TcpStream, is_failing: bool, elements: &[u8]) {
     let (status, body) = if is_failing { ("403 Forbidden", &[][..]) } else { ("200 OK", elements) };
     let head =
         format!("HTTP/1.1 {status}\r\nContent-Length: {}\r\nConnection: close\r\n\r\n", body.len());
-    // The client may have left.
+    // Ignore errors: the client may have left.
     let _ = stream.write_all(&[head.as_bytes(), body].concat());
 }

@@ -1,4 +1,4 @@
-//! The promise of the plan as each pass began, and the time in beam.
+//! Tally of each pass: the promise of the plan at its start, and the time in beam.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -21,11 +21,11 @@ use jiff::Timestamp;
 
 use super::faults::{Faults, Span};
 
-/// A direction that was measured longer ago counts as none, seconds.
+/// Max age of a measured direction, seconds; an older one counts as none.
 const FRESH_S: f64 = 3.0;
-/// A newer plan may move an AOS by less, seconds.
+/// Max change of an AOS between two plans with the same pass, seconds.
 const SAME_AOS_S: f64 = 60.0;
-/// Passes that lost more are printed, seconds.
+/// Loss above which the test prints a pass, seconds.
 const PRINTED_S: f64 = 2.0;
 
 /// Promised and delivered time in beam, seconds.
@@ -67,11 +67,11 @@ struct Begun {
     during: Span,
     /// Time in beam that the plan promised as the pass began, seconds.
     promised_s: f64,
-    /// Seconds of faults during the pass.
+    /// Time of faults during the pass, seconds.
     excused_s: f64,
-    /// Time in beam outside the faults as this test sees it, seconds.
+    /// Time in beam outside the faults as this test measures it, seconds.
     measured_s: f64,
-    /// The station's own account.
+    /// Result of the pass in the station's own report.
     flown: Option<Flown>,
 }
 
@@ -88,7 +88,8 @@ impl Begun {
         total.promised_s - total.delivered_s
     }
 
-    /// A pass that was under way at a start of the station has that start for AOS.
+    /// Returns `true` if the key names this pass. A pass under way at a start of the station has
+    /// that start as AOS.
     fn covers(&self, antenna: AntennaId, (satellite, aos): PassListKey) -> bool {
         let from = add_seconds(self.pass.1, -SAME_AOS_S);
         self.antenna == antenna && self.pass.0 == satellite && from < aos && aos < self.during.to
@@ -102,10 +103,10 @@ pub(super) struct Tally {
     names: BTreeMap<AntennaId, String>,
     seen_to: Option<Timestamp>,
     takes_no_more: bool,
-    /// Refusals that were printed.
+    /// Printed refusals, by antenna and time.
     refused: BTreeSet<(AntennaId, Timestamp)>,
     day_until: Option<Timestamp>,
-    /// By id and time: each run of the station counts from the same id.
+    /// Alarms by id and time, because each run of the station counts from the same id.
     alarms: BTreeSet<(u64, Timestamp)>,
 }
 
@@ -125,7 +126,7 @@ impl Tally {
         }
     }
 
-    /// Counts no pass that begins later.
+    /// Ignores all passes that begin later.
     pub(super) fn take_no_more(&mut self) {
         self.takes_no_more = true;
     }
@@ -134,7 +135,8 @@ impl Tally {
         self.begun.iter().map(|begun| begun.during.to).max().unwrap_or(self.from)
     }
 
-    /// Counts the passes that begin before `until`: the plan in force at a power cut stays until then.
+    /// Counts the passes that begin before `until`. The plan in force at a power cut stays until
+    /// then.
     pub(super) fn expect(&mut self, snapshot: &Snapshot, until: Timestamp) {
         let now = snapshot.moment.utc;
         let is_due = |entry: &&Entry| entry.start < until && now < entry.end;
@@ -164,7 +166,7 @@ impl Tally {
         });
     }
 
-    /// Looks at the station at a true time, which its clock may not show.
+    /// Records the state of the station at a true time, which its clock may not show.
     pub(super) fn look(&mut self, snapshot: &Snapshot, true_time: Timestamp) {
         let now = snapshot.moment.utc;
         let is_under_way = |entry: &&Entry| entry.start <= now && now < entry.end;
@@ -220,7 +222,7 @@ impl Tally {
         self.day_until = snapshot.day.last().map(|line| line.time).or(self.day_until);
     }
 
-    /// Returns `true` if the station has told of each pass that met no fault.
+    /// Returns `true` if the station has reported each pass that met no fault.
     pub(super) fn is_over(&self) -> bool {
         self.begun.iter().all(|begun| begun.flown.is_some() || begun.excused_s > 0.0)
     }
@@ -242,7 +244,7 @@ impl Tally {
         }
     }
 
-    /// Prints the totals of each antenna, and returns that of all.
+    /// Prints the totals of each antenna and returns their sum.
     pub(super) fn print_totals(&self) -> Total {
         let mut causes: BTreeMap<String, f64> = BTreeMap::new();
         for begun in &self.begun {

@@ -56,7 +56,7 @@ fn random(dice: &mut Dice, utc_origin: Timestamp) -> World {
         elevation_from_deg: 0.0,
         elevation_to_deg: 90.0,
     };
-    // At 40 counts per second.
+    // The axes turn by 40 counts per second.
     let fastest_deg_s = f64::max(40.0 * (to_deg - from_deg) / 3600.0, 2.0);
     antenna.limits.maximum_rate_deg_s = fastest_deg_s;
     antenna.limits.minimum_elevation_deg = dice.between(0.0, 10.0);
@@ -135,7 +135,7 @@ impl Unit for Counting {
     fn falsified(&self, reply: &[u8], dice: &mut Dice) -> Vec<u8> {
         let mut reply = reply.to_vec();
         if is_status(&reply) {
-            // The name of the satellite, or the feed.
+            // Change the name of the satellite, or the feed.
             let at = if dice.chance(0.5) { 3 + dice.below(11) } else { 24 + dice.below(3) };
             reply[at] = b' ' + dice.below(95) as u8;
             seal(&mut reply);
@@ -153,7 +153,7 @@ fn word(frame: &Frame) -> Word {
     }
 }
 
-/// First byte of the azimuth in a status, and bytes of a position.
+/// Index of the first byte of the azimuth in a status.
 const AZIMUTH_AT: usize = 14;
 const POSITION_BYTES: usize = 5;
 /// Texts in place of an angle.

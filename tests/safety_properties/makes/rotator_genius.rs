@@ -34,7 +34,7 @@ pub(super) static MAKE: Make = Make {
     tracks_on_board: false,
     ignores_deg: 15.0,
     waits_for_word: false,
-    // One axis after the other.
+    // The unit takes one command for each axis.
     words_of_a_go_to: 2,
 };
 
@@ -133,7 +133,8 @@ impl Unit for Control {
         let mut reply = reply.to_vec();
         if is_status(&reply) {
             let rotator = HEADER_BYTES + dice.below(2) * ROTATOR_BYTES;
-            // Limits, offset, target and start; not the position, its kind and its motion.
+            // Change limits, offset, target and start, but not the position, its kind and its
+            // motion.
             let from = rotator + [3, 6, 11, 15, 18][dice.below(5)];
             reply[from..from + 3].copy_from_slice(ODD[dice.below(ODD.len())]);
         }
@@ -150,12 +151,12 @@ fn word(text: &str) -> Word {
     }
 }
 
-/// Bytes of a status before the rotators, and of each rotator.
+/// Number of bytes of a status before the rotators.
 const HEADER_BYTES: usize = 4;
 const ROTATOR_BYTES: usize = 34;
 /// Texts in place of an angle.
 const NO_ANGLE: [&[u8; 3]; 4] = [b"999", b"   ", b"NaN", b"361"];
-/// Figures that a unit with a fault might tell.
+/// Figures that a faulty unit might report.
 const ODD: [&[u8; 3]; 8] = [b"999", b"  0", b"359", b"360", b" -1", b"   ", b"NaN", b"180"];
 
 /// Returns `true` if a reply is one whole status.

@@ -94,7 +94,7 @@ impl Unit for Control {
 
     fn add_noise(&self) {
         // The axes of the mount near its poles turn up to ten times further than the direction on
-        // the sky. More noise would be an antenna that sways.
+        // the sky. More noise would look like a swaying antenna.
         let misreading = Misreading { noise_deg: 0.0025, ..Misreading::default() };
         self.set_trouble(Trouble::Misreads(misreading), true);
     }
@@ -147,7 +147,7 @@ fn word(text: &str) -> Word {
 
 /// Texts in place of an angle.
 const NO_ANGLE: [&str; 6] = ["", "NaN", "inf", "-", "1e999", "---"];
-/// Figures that a unit with a fault might tell.
+/// Figures that a faulty unit might report.
 const ODD: [&str; 14] = [
     "0",
     "1",
@@ -167,7 +167,7 @@ const ODD: [&str; 14] = [
 /// Number of values in a status, the first of which is a flag.
 const STATUS_VALUES: usize = 16;
 
-/// The payload of a reply, if it is one whole frame.
+/// Returns the payload of a reply, if the reply is one whole frame.
 fn payload(reply: &[u8]) -> Option<&str> {
     std::str::from_utf8(reply).ok()?.strip_prefix('$')?.split_once('*').map(|(payload, _)| payload)
 }
@@ -182,7 +182,7 @@ fn without_angle(reply: &[u8], axis: usize, text: usize) -> Option<Vec<u8>> {
     Some(encode(&values.join(",")))
 }
 
-/// A time as the unit writes it, far from now in one of three cases.
+/// Draws a time as the unit writes it, often far from the current one.
 fn some_time(dice: &mut Dice) -> [String; 6] {
     let year = [1970, 1999, 2000, 2026, 2027, 2038, 2099, 2100, 9999, 0][dice.below(10)];
     let month = 1 + dice.below(12);
@@ -197,7 +197,7 @@ fn falsified(reply: &[u8], dice: &mut Dice) -> Option<Vec<u8>> {
     match word.split(['?', '=']).next()? {
         "STATUS" | "VERSION" | "ERRSTATUS" => return None,
         word if word.contains("TIME") && dice.chance(0.7) => {
-            // Whole times: clocks and windows, also reversed ones.
+            // Change whole times of clocks and windows, which may reverse a window.
             for time in values.chunks_mut(6).filter(|time| time.len() == 6) {
                 if dice.chance(0.6) {
                     time.clone_from_slice(&some_time(dice));

@@ -1,4 +1,4 @@
-//! Elements that the operator adds, and what is kept for the next start.
+//! Elements that the operator adds, and those that Azel keeps for the next start.
 
 use std::{
     fs,
@@ -29,7 +29,7 @@ use crate::{
     },
 };
 
-/// A file in the hand of the operator.
+/// File that the operator holds over the window.
 #[derive(Debug)]
 struct Held(PathBuf);
 
@@ -61,7 +61,7 @@ fn a_held_file_says_what_it_holds_and_is_kept_or_read_once_after_its_release() {
         assert!(says(&window, "own.json: 1 object, 1 newer than in use"));
         assert!(says(&window, "notes.txt: Left out: it is neither TLE nor OMM."));
         assert!(window.query_by_label("Read once: own.json").is_none(), "nothing is chosen yet");
-        // Moved out of the window again.
+        // Move the file out of the window again.
         window.input_mut().hovered_files.clear();
         settle(&mut window);
         assert!(!says(&window, "Release to read"));
@@ -153,12 +153,13 @@ fn enter_in_the_form_adds_the_source() {
     }
 }
 
-/// A time at which the sets that are newer than the bundled ones do not lie ahead.
+/// Returns a time at which sets newer than the bundled ones are not in the future.
 pub(super) fn week_later() -> jiff::Timestamp {
     rig::now() + jiff::SignedDuration::from_hours(7 * 24)
 }
 
-/// Elements of one object as a file in `folder`, a day newer than the bundled ones.
+/// Writes elements of one object, a day newer than the bundled ones, to a file in `folder`. Returns
+/// its path.
 pub(super) fn newer_elements(folder: &tempfile::TempDir) -> PathBuf {
     let path = folder.path().join("own.json");
     let text = "[{\"OBJECT_NAME\":\"NOAA 20\",\"NORAD_CAT_ID\":43013,\

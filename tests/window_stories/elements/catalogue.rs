@@ -20,11 +20,11 @@ use egui_kittest::{
 use super::{METEOR_M2_3, click, file_source, is_disabled, report, server, view, write};
 use crate::window_stories::rig::{self, NOAA_20, SIZES, Window, asked, says, settle};
 
-/// The names of the rows in view.
+/// Returns the names of the rows in view.
 fn rows(window: &Window) -> Vec<String> {
     let rows = window.query_all_by_role(Role::ListBoxOption);
     let names = rows.map(|row| row.accesskit_node().label().unwrap_or_default());
-    // Not those of the passes of the selected object.
+    // Leave out the rows of the selected object's passes.
     names.filter(|name| name.contains(", elements ")).collect()
 }
 
@@ -214,7 +214,7 @@ fn every_control_is_whole_in_every_window() {
         for role in [Role::Button, Role::TextInput, Role::RadioButton, Role::CheckBox] {
             for node in window.query_all_by_role(role) {
                 let name = node.accesskit_node().label().unwrap_or_default();
-                // The last row may be cut.
+                // The window may cut the last row.
                 let is_of_row = name.ends_with("favourites") || name.starts_with("Mark ");
                 let most = if is_of_row { size[1] + 50.0 } else { size[1] };
                 let rect = node.rect();

@@ -129,7 +129,7 @@ fn the_elements_are_copied_as_tle_and_omm() {
     }
 }
 
-/// The text that was copied in the last frame.
+/// Returns the text that the last frame copied.
 fn copied(window: &Window) -> String {
     let commands = &window.output().platform_output.commands;
     let text = commands.iter().find_map(|command| match command {

@@ -1,4 +1,4 @@
-//! Sets of one object that are held, and the older one that the operator uses.
+//! Stored sets of one object, and the older one that the operator uses.
 
 use std::sync::Arc;
 
@@ -32,7 +32,7 @@ use crate::window_stories::{
     unit::{RealWindow, Unit, clock_from, open, step_until},
 };
 
-/// Elements of NOAA 20 of the catalogue with this epoch.
+/// Returns the catalogue's elements of NOAA 20 with this epoch.
 fn with_epoch(model: &Model, epoch: &str) -> Elements {
     let CatalogState::Ready(catalog) = &model.catalog else { unreachable!() };
     let mut text = Vec::new();
@@ -42,7 +42,7 @@ fn with_epoch(model: &Model, epoch: &str) -> Elements {
     read_elements(&list.to_string()).elements.remove(0)
 }
 
-/// Shows sets of NOAA 20 that are not in use.
+/// Shows the given sets of NOAA 20 as sets that are not in use.
 fn hold(window: &mut Window, sets: impl IntoIterator<Item = Elements>) {
     let of_weather = |elements| OlderSet { elements, source: "weather".to_owned() };
     let sets = sets.into_iter().map(of_weather).collect();
@@ -51,7 +51,7 @@ fn hold(window: &mut Window, sets: impl IntoIterator<Item = Elements>) {
     settle(window);
 }
 
-/// Opens the menu of the set whose row begins like this.
+/// Opens the menu of the set whose row begins with `row`.
 fn open_menu(window: &mut Window, row: &str) {
     let row = window.get_by(|node| {
         node.role() == Role::Button && node.label().unwrap_or_default().starts_with(row)
@@ -159,7 +159,7 @@ fn with_order(window: &mut Window, order: &[&str]) {
     settle(window);
 }
 
-/// The line of the sources, which opens the menu of their order.
+/// Returns the line of the sources, which opens the menu of their order.
 fn sources_line(window: &Window) -> Node<'_> {
     window.get_by(|node| {
         let label = node.label().unwrap_or_default();

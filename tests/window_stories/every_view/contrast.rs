@@ -1,4 +1,4 @@
-//! All text can be read on what is painted behind it, in every theme.
+//! Contrast of every text with its ground, in every theme.
 
 use egui::{Pos2, Rect, Role, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -16,20 +16,21 @@ use crate::window_stories::{
     rig::{LARGE, Window, settle},
 };
 
-/// Contrast that text needs.
+/// Min contrast of text.
 const TEXT: f64 = 4.5;
-/// Contrast that large text needs: from 24 px, or bold from 18.66 px.
+/// Min contrast of large text: from 24 px, or bold from 18.66 px.
 const LARGE_TEXT: f64 = 3.0;
 
-/// Safety data need as much through the veil of a question as without it.
+/// Returns the min contrast of a text. Safety data need the same contrast through the veil of a
+/// question as without it.
 fn needed(run: &Run, safety_data: &[Rect]) -> f64 {
     let is_large = run.size >= 24.0 || (run.is_bold && run.size >= 18.66);
     let is_safety_data = safety_data.iter().any(|place| place.contains(run.rect.center()));
     if is_large || (run.is_veiled && !is_safety_data) { LARGE_TEXT } else { TEXT }
 }
 
-/// Places of the buttons that egui fades because they can do nothing now, of which the guidelines
-/// ask no contrast. Those that are locked have a dashed border and whole colours.
+/// Returns the places of disabled buttons that egui fades; the guidelines ask no contrast of these.
+/// Locked buttons have a dashed border and full colours.
 fn disabled(window: &Window) -> Vec<Rect> {
     let names = ["Add source", "Move up", "Move down"];
     let buttons = window.query_all_by_role(Role::Button).filter(|of| {
@@ -59,7 +60,7 @@ fn the_rows_of_a_table_lie_on_the_tone_of_an_input_in_the_light_theme() {
 /// Finds texts with too little contrast in any theme, in a window of size [`LARGE`]. Counts all
 /// texts. The window ends in the dark theme.
 pub(super) fn check(window: &mut Window, findings: &mut Findings) {
-    // The top bar, and the card of Operate.
+    // The safety data are in the top bar and on the card of Operate.
     let [width, height] = LARGE;
     let bar = Rect::from_min_size(Pos2::ZERO, vec2(width, top_bar::HEIGHT));
     let card = Rect::from_min_max(pos2(width - card::WIDTH, 0.0), pos2(width, height));

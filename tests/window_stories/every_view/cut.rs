@@ -1,4 +1,4 @@
-//! Texts that must be read whole are not cut.
+//! Texts that Azel must not cut.
 
 use azel::model::View;
 use egui::accesskit::Role;
@@ -13,7 +13,7 @@ use crate::window_stories::{
     settings_rig, states,
 };
 
-/// Returns `true` if it is a line of the list of keys.
+/// Returns `true` if the node is a line of the list of keys.
 fn is_key(node: &Node<'_>) -> bool {
     let words = node.accesskit_node().label().or(node.accesskit_node().value());
     let words = words.unwrap_or_default();
@@ -74,7 +74,7 @@ fn the_seconds_of_a_unit_are_whole_on_any_day() {
 fn the_seconds_of_a_new_start_and_stop_are_within_their_fields_at_any_width() {
     for width in [1024.0, 1360.0, 1419.0, 1436.0, 1440.0, 1480.0, 1530.0, 1920.0, 2200.0] {
         let mut window = settings_rig::opened([width, 900.0], settings_rig::read());
-        // A changed value is written in a bold font.
+        // Azel writes a changed value in a bold font.
         for field in ["Start", "Stop"] {
             settings_rig::write(&mut window, field, "2026-08-28 20:58:58");
         }
@@ -103,7 +103,7 @@ fn raw_bytes_that_have_no_room_end_with_an_ellipsis() {
     assert!(cut.iter().any(|words| words.starts_with("$SATELLITE?,aaa")), "{cut:?}");
 }
 
-/// Texts that end with an ellipsis where there is no room, as the pointer shows them whole.
+/// Starts of texts that may end with an ellipsis, because the pointer shows them whole.
 const MAY_BE_CUT: [&str; 6] = [
     // State of another antenna, below the card.
     "Holding at ",
@@ -113,11 +113,11 @@ const MAY_BE_CUT: [&str; 6] = [
     // Place of a source, and its name.
     "celestrak.org/",
     "bundled, ",
-    // Values that were not read of a unit.
+    // Values that Azel has not read from a unit.
     "192.168.10.21:4001, not read: ",
 ];
 
-/// Finds texts that are cut and must not be.
+/// Finds cut texts that must be whole.
 pub(super) fn check(window: &Window, findings: &mut Findings) {
     let cut = painted::cut(window);
     findings.count(painted::texts(window).len());

@@ -1,4 +1,4 @@
-//! A time of another day carries its day, wherever it is written.
+//! Times of another day, which carry their day in every place.
 
 use egui_kittest::kittest::{By, NodeT as _, Queryable as _};
 
@@ -12,7 +12,7 @@ const HOURS: [&str; 2] = ["22:", "23:"];
 const MONTHS: [&str; 12] =
     ["Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"];
 
-/// All words that can be seen or heard.
+/// Returns all words that the operator can see or hear.
 pub(crate) fn words(window: &Window) -> Vec<String> {
     let nodes = window.query_all(By::new()).flat_map(|node| {
         let node = node.accesskit_node();
@@ -21,7 +21,7 @@ pub(crate) fn words(window: &Window) -> Vec<String> {
     nodes.flatten().chain(painted::texts(window)).collect()
 }
 
-/// The texts before each time of day such as `11:15:30` or `11:15Z` in `words`.
+/// Returns the text before each time of day, such as `11:15:30` or `11:15Z`, in `words`.
 fn times(words: &str) -> Vec<(&str, &str)> {
     let is_time = |place: usize| {
         let shape = |form: &str| {
@@ -40,7 +40,8 @@ fn times(words: &str) -> Vec<(&str, &str)> {
     starts.filter_map(|(place, _)| Some((&words[..place], is_time(place)?))).collect()
 }
 
-/// Returns `true` if the day stands before a time, or before the time that a stretch begins with.
+/// Returns `true` if the day stands before a time, or before the start of a stretch that ends with
+/// this time.
 fn has_day(before: &str) -> bool {
     let before = before.trim_end_matches(['T', ' ']);
     let is_date = |last: &str| last.len() == 10 && last.matches('-').count() == 2;
@@ -50,7 +51,7 @@ fn has_day(before: &str) -> bool {
     times(begin).last().is_some_and(|(before, _)| has_day(before))
 }
 
-/// Not a time of day but how long something takes, as in `T−12:15:30`.
+/// Returns `true` if the time is a duration, as in `T−12:15:30`, and not a time of day.
 fn is_span(before: &str) -> bool {
     before.ends_with(['\u{2212}', '+'])
         || before.ends_with("rises in ")

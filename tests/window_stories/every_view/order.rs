@@ -1,4 +1,4 @@
-//! The tree is read in the order in which the window is: down each column, along each row.
+//! Reading order of the tree, which follows the window: down each column, along each row.
 
 use std::collections::BTreeMap;
 
@@ -18,14 +18,14 @@ use crate::window_stories::{
     rig::{LARGE, SMALL, Window, settle},
 };
 
-/// Something that is read, where it is seen.
+/// Node that a screen reader reads, with its visible place.
 struct Read {
     name: String,
     place: Rect,
     layer: LayerId,
 }
 
-/// Visible part of each widget, by its node.
+/// Returns the visible part of each widget, by its node.
 fn places(window: &Window) -> BTreeMap<NodeId, (LayerId, Rect)> {
     window.ctx.viewport(|viewport| {
         let layers = viewport.this_pass.widgets.layers();
@@ -35,12 +35,13 @@ fn places(window: &Window) -> BTreeMap<NodeId, (LayerId, Rect)> {
     })
 }
 
-/// Returns `true` if it is a mark of a drawing, whose order follows from its meaning.
+/// Returns `true` if the node is a mark of a drawing, whose order follows from its meaning.
 fn is_drawn(node: &AccessKitNode<'_>) -> bool {
     std::iter::successors(node.parent(), AccessKitNode::parent).any(|of| of.role() == Role::Canvas)
 }
 
-/// Controls and texts in the order of the tree, without STOP, which is the first by intent.
+/// Returns the controls and texts in the order of the tree, without STOP, which is the first by
+/// intent.
 fn read(window: &Window) -> Vec<Read> {
     let places = places(window);
     let nodes = window.root().children_recursive().map(|node| node.accesskit_node());
@@ -61,12 +62,12 @@ fn read(window: &Window) -> Vec<Read> {
     .collect()
 }
 
-/// Share of the shorter of two ranges that the other covers.
+/// Returns the share of the shorter of two ranges that the other covers.
 fn common(a: Rangef, b: Rangef) -> f32 {
     a.intersection(b).span().max(0.0) / a.span().min(b.span())
 }
 
-/// Returns `true` if `later` stands before `earlier`: above it in its column, or left of it in its
+/// Returns `true` if `later` stands before `earlier`: above in the same column, or left in the same
 /// row.
 fn goes_back(earlier: &Read, later: &Read) -> bool {
     let (a, b) = (earlier.place, later.place);
@@ -75,7 +76,7 @@ fn goes_back(earlier: &Read, later: &Read) -> bool {
     earlier.layer == later.layer && (is_above || is_before)
 }
 
-/// Finds nodes that are read after what stands behind them. Counts all nodes.
+/// Finds nodes that the tree has after nodes behind them. Counts all nodes.
 pub(super) fn check(window: &Window, findings: &mut Findings) {
     let read = read(window);
     findings.count(read.len());
@@ -89,10 +90,10 @@ pub(super) fn check(window: &Window, findings: &mut Findings) {
     }
 }
 
-/// A stop of Tab, with what it is called.
+/// Stop of Tab, with its name.
 type Stop = (NodeId, String);
 
-/// Presses and releases Tab in one frame, and draws the next ones with the new focus.
+/// Presses and releases Tab in one frame, and draws two frames with the new focus.
 fn press_tab(window: &mut Window, modifiers: Modifiers) {
     let key = |pressed| Event::Key {
         key: Key::Tab,
@@ -110,7 +111,7 @@ fn press_tab(window: &mut Window, modifiers: Modifiers) {
     window.run_steps(2);
 }
 
-/// Returns true if a focus ring is painted around the focused control or its row, or inside its
+/// Returns `true` if a focus ring is painted around the focused control or its row, or inside its
 /// drawing.
 fn is_ringed(window: &Window, ring: Color32) -> bool {
     focused(window).is_some_and(|(place, _)| {
@@ -121,7 +122,7 @@ fn is_ringed(window: &Window, ring: Color32) -> bool {
     })
 }
 
-/// The stops of one way round with Tab, from STOP on, and what is wrong with them.
+/// Returns the stops of one round with Tab, starting at STOP, and adds faults to `faults`.
 fn stops(window: &mut Window, modifiers: Modifiers, faults: &mut Vec<String>) -> Vec<Stop> {
     let ring = theme::tokens(&window.ctx).sat;
     let mut stops: Vec<Stop> = Vec::new();
@@ -138,14 +139,14 @@ fn stops(window: &mut Window, modifiers: Modifiers, faults: &mut Vec<String>) ->
             break;
         }
         if !is_ringed(window, ring) {
-            // It is being scrolled into view.
+            // The window still scrolls the control into view.
             settle(window);
         }
         if !is_ringed(window, ring) {
             faults.push(format!("no ring around {:?}", now.1));
         }
         if modifiers == Modifiers::NONE {
-            // The view may have been scrolled: both places are of now.
+            // The view may have scrolled, so take both places from the current frame.
             let places = places(window);
             let read = |(id, name): &Stop| {
                 let (layer, place) = *places.get(id)?;
@@ -192,7 +193,7 @@ fn tab_goes_along_the_rows_to_every_control_and_back() {
     assert!(all.is_empty(), "{} times\n{}", all.len(), all.join("\n"));
 }
 
-/// The controls that can have the focus.
+/// Returns the controls that can have the focus.
 fn focusable(window: &Window) -> Vec<Stop> {
     let nodes = window.root().children_recursive().map(|node| node.accesskit_node());
     let can = nodes.filter(|node| {
@@ -201,9 +202,9 @@ fn focusable(window: &Window) -> Vec<Stop> {
     can.map(|node| (node.locate().0, node.label().or(node.value()).unwrap_or_default())).collect()
 }
 
-/// The place of the node that has the focus, and the node with its name.
+/// Returns the place of the node that has the focus, and the node with its name.
 fn focused(window: &Window) -> Option<(Rect, Stop)> {
-    // Screen readers are led on to a row of a list, which has the focus itself.
+    // A list keeps the focus and leads screen readers on to its row.
     let has_focus = |node: &Node<'_>| node.accesskit_node().is_focused_in_tree();
     let node = window.root().children_recursive().find(has_focus)?;
     let place = node.rect();
@@ -212,7 +213,7 @@ fn focused(window: &Window) -> Option<(Rect, Stop)> {
     Some((place, (node.locate().0, name)))
 }
 
-/// The main views, and what opens in them, each in a window in which it has the most or the least room.
+/// Main views and the popups in them, each in a window with the most or the least room for it.
 const BY_TAB: [(&str, [f32; 2]); 22] = [
     ("Operate, tracking", LARGE),
     ("Operate, jog", LARGE),

@@ -1,4 +1,4 @@
-//! No text is painted on another.
+//! Texts that must not overlap.
 
 use crate::window_stories::{
     every_view::{Findings, painted},

@@ -1,4 +1,4 @@
-//! Text of a frame as it was painted: colour, ground, place and clip.
+//! Text of a frame in its painted form: colour, ground, place and clip.
 
 use egui::{
     Color32, FontFamily, Mesh, Pos2, Rect, Shape,
@@ -16,11 +16,11 @@ pub(crate) struct Run {
     pub(super) size: f32,
     pub(super) is_bold: bool,
     pub(super) colour: Color32,
-    /// The colour behind its middle.
+    /// Colour behind the middle of the text.
     pub(super) ground: Color32,
     pub(crate) rect: Rect,
     pub(super) clip: Rect,
-    /// It is seen through a veil, such as that below a question.
+    /// `true` if a veil, such as that below a question, covers the text.
     pub(super) is_veiled: bool,
 }
 
@@ -28,7 +28,7 @@ pub(crate) struct Run {
 const COVERS: u8 = 150;
 
 impl Run {
-    /// The place of the letters, without what the font keeps free above and below them.
+    /// Returns the place of the letters, without the free space of the font above and below them.
     fn letters(&self) -> Rect {
         self.rect.shrink2(vec2(0.0, 0.2 * self.rect.height()))
     }
@@ -40,14 +40,14 @@ struct Layer<'a> {
     area: Rect,
 }
 
-/// All text of the last frame of which something can be seen.
+/// Returns all visible text of the last frame.
 pub(crate) fn runs(window: &Window) -> Vec<Run> {
     let mut layers = Vec::new();
     let mut found = Vec::new();
     for ClippedShape { clip_rect, shape, .. } in &window.output().shapes {
         collect(shape, *clip_rect, &mut layers, &mut found);
     }
-    // The window is cleared in this colour.
+    // The renderer clears the window with this colour.
     let clear = window.ctx.global_style().visuals.panel_fill;
     let whole = window.ctx.content_rect();
     let seen = |(below, run): (usize, Run)| {
@@ -57,7 +57,7 @@ pub(crate) fn runs(window: &Window) -> Vec<Run> {
     found.into_iter().map(seen).collect()
 }
 
-/// As seen through fills over all of the window, such as below a question.
+/// Blends a run with fills over all of the window, such as the veil below a question.
 fn under_veils(mut run: Run, above: &[Layer<'_>], whole: Rect) -> Run {
     for layer in above.iter().filter(|layer| layer.area.contains_rect(whole)) {
         let Some(veil) = fill_at(layer.shape, whole.center()) else { continue };
@@ -67,7 +67,7 @@ fn under_veils(mut run: Run, above: &[Layer<'_>], whole: Rect) -> Run {
     run
 }
 
-/// Texts of the last frame that lie on each other, with nothing painted between them.
+/// Returns pairs of overlapping texts of the last frame, with nothing painted between them.
 pub(super) fn on_each_other(window: &Window) -> Vec<[String; 2]> {
     let mut layers = Vec::new();
     let mut found = Vec::new();
@@ -95,17 +95,17 @@ pub(super) fn on_each_other(window: &Window) -> Vec<[String; 2]> {
     pairs
 }
 
-/// The colour behind this text, which has no blanks.
+/// Returns the colour behind this text, which has no blanks.
 pub(crate) fn ground_of(window: &Window, words: &str) -> Option<Color32> {
     runs(window).into_iter().find(|run| run.text == words).map(|run| run.ground)
 }
 
-/// All text of the last frame of which something can be seen, without blanks, with its places.
+/// Returns all visible text of the last frame without blanks, with its places.
 pub(crate) fn placed(window: &Window) -> Vec<(String, Rect)> {
     runs(window).into_iter().map(|run| (run.text.clone(), run.letters())).collect()
 }
 
-/// All texts of the last frame, each with its blanks and whole if it was cut.
+/// Returns all texts of the last frame, each with its blanks and in full length if it was cut.
 pub(crate) fn texts(window: &Window) -> Vec<String> {
     let mut texts = Vec::new();
     for ClippedShape { shape, .. } in &window.output().shapes {
@@ -114,7 +114,7 @@ pub(crate) fn texts(window: &Window) -> Vec<String> {
     texts
 }
 
-/// Texts of the last frame that end with an ellipsis.
+/// Returns the texts of the last frame that end with an ellipsis.
 pub(crate) fn cut(window: &Window) -> Vec<String> {
     let mut cut = Vec::new();
     for ClippedShape { shape, .. } in &window.output().shapes {
@@ -123,8 +123,8 @@ pub(crate) fn cut(window: &Window) -> Vec<String> {
     cut
 }
 
-/// Colours of the fills and borders, and of the rings of a focus, of which each edge is nearer than
-/// `reach` to that of `place`.
+/// Returns the colours of fills, borders and focus rings whose edges are all nearer than `reach` to
+/// those of `place`.
 pub(crate) fn around(window: &Window, place: Rect, reach: f32) -> Vec<Color32> {
     let mut found = Vec::new();
     for ClippedShape { shape, .. } in &window.output().shapes {
@@ -196,7 +196,7 @@ fn collect<'a>(
 }
 
 fn pieces(text: &TextShape, clip: Rect) -> Vec<Run> {
-    // Turned text would need a turned place; the window has none.
+    // Turned text would need a turned place, but the window has none.
     assert!(text.angle == 0.0, "turned text: {:?}", text.galley.text());
     let job = &text.galley.job;
     let mut runs: Vec<Run> = Vec::new();
@@ -204,7 +204,7 @@ fn pieces(text: &TextShape, clip: Rect) -> Vec<Run> {
     for row in &text.galley.rows {
         let mut last = None;
         for glyph in &row.row.glyphs {
-            // The ellipsis of a cut text stands for what comes next.
+            // The ellipsis of a cut text stands in place of the next letter.
             let place = places.next().unwrap_or(job.text.len().saturating_sub(1));
             let holds = |section: &LayoutSection| section.byte_range.contains(&ByteIndex(place));
             let Some(index) = job.sections.iter().position(holds) else { continue };
@@ -262,7 +262,7 @@ fn with_ground(mut run: Run, below: &[Layer<'_>], clear: Color32) -> Run {
     run
 }
 
-/// The colour with which a shape fills a point.
+/// Returns the colour with which a shape fills a point.
 fn fill_at(shape: &Shape, at: Pos2) -> Option<Color32> {
     let fill = match shape {
         Shape::Rect(rect) if rect.rect.contains(at) => rect.fill,

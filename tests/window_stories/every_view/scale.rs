@@ -1,4 +1,4 @@
-//! At 200 % nothing that must stay is lost, in any view.
+//! Content that every view must keep at 200 %.
 
 use std::collections::BTreeMap;
 
@@ -14,11 +14,11 @@ use crate::window_stories::{
     rig::{Window, settle},
 };
 
-/// A part by its name, and how its node is recognised.
+/// Name of a part, and the test that recognises its node.
 type Part = (&'static str, fn(&AccessKitNode<'_>) -> bool);
 
-/// Parts that every view keeps, and parts that Operate keeps of an antenna. They are never folded,
-/// hidden or scrolled away.
+/// Parts that every view keeps, and parts that Operate keeps of an antenna. Azel never folds, hides
+/// or scrolls them away.
 const ALWAYS: [Part; 3] = [
     ("STOP", |node| node.role() == Role::Button && starts(node, "STOP")),
     ("the clock", |node| name(node).ends_with(" UTC")),
@@ -42,18 +42,18 @@ fn starts(node: &AccessKitNode<'_>, words: &str) -> bool {
 fn is_control(node: &AccessKitNode<'_>) -> bool {
     let data = node.data();
     let acts = data.supports_action(Action::Focus) || data.supports_action(Action::Click);
-    // Text can be selected with the pointer.
+    // A label is no control, although the pointer can select its text.
     acts && node.role() != Role::Label
 }
 
-/// Returns `true` if there is such a node, and all of them are whole in the window.
+/// Returns `true` if such a node exists, and all such nodes are whole in the window.
 fn is_there(window: &Window, whole: Rect, is_it: fn(&AccessKitNode<'_>) -> bool) -> bool {
     let all = window.query_all(By::new()).filter(|node| is_it(&node.accesskit_node()));
     let places: Vec<Rect> = all.map(|node| node.rect()).collect();
     !places.is_empty() && places.iter().all(|place| whole.contains_rect(*place))
 }
 
-/// Role, name and place of the controls that are not whole in the window.
+/// Returns role, name and place of the controls that are not whole in the window.
 fn outside(window: &Window, whole: Rect) -> Vec<(Role, String, Rect)> {
     let all = window.query_all(By::new()).filter(|node| is_control(&node.accesskit_node()));
     let found = all.map(|node| {
@@ -63,8 +63,8 @@ fn outside(window: &Window, whole: Rect) -> Vec<(Role, String, Rect)> {
     found.filter(|(_, name, place)| !name.is_empty() && !whole.contains_rect(*place)).collect()
 }
 
-/// Brings the lowest control outside the window into it, in each quarter of its width. Returns their
-/// number, and those that stay outside.
+/// Brings the lowest control outside the window into view, in each quarter of its width. Returns
+/// the number of these controls, and those that stay outside.
 fn unreachable(window: &mut Window, whole: Rect) -> (usize, Vec<String>) {
     let mut lowest: BTreeMap<u8, (Role, String, Rect)> = BTreeMap::new();
     for (role, name, place) in outside(window, whole) {
@@ -99,8 +99,8 @@ fn unreachable(window: &mut Window, whole: Rect) -> (usize, Vec<String>) {
     (count, lost)
 }
 
-/// Finds what is lost at 200 %: parts that must stay, the ends of texts, and controls that no
-/// scrolling reaches. Counts the controls that were scrolled to. The window stays at 200 %.
+/// Finds losses at 200 %: parts that must stay, the ends of texts, and controls that no scrolling
+/// reaches. Counts the controls that needed scrolling. The window stays at 200 %.
 pub(super) fn check(scene: &Scene, size: [f32; 2], window: &mut Window, findings: &mut Findings) {
     let root = window.input_mut().viewports.entry(ViewportId::ROOT).or_default();
     root.native_pixels_per_point = Some(2.0);
@@ -132,8 +132,8 @@ pub(super) fn check(scene: &Scene, size: [f32; 2], window: &mut Window, findings
     }
 }
 
-/// The points of a window of 2560 x 1440 at 200 %. The smallest window is among the sizes of
-/// [`every_view`](super).
+/// The size is a window of 2560 x 1440 at 200 %, in points. The smallest window is among the sizes
+/// of [`every_view`](super).
 #[test]
 fn at_200_percent_a_usual_screen_loses_nothing() {
     const SIZE: [f32; 2] = [1280.0, 720.0];

@@ -1,4 +1,4 @@
-//! A tooltip stands beside its subject.
+//! Place of a tooltip beside its subject.
 
 use azel::model::View;
 use egui::{Rect, Role};
@@ -10,10 +10,10 @@ use crate::window_stories::{
     states,
 };
 
-/// Least distance of the text of a tooltip from its border.
+/// Min distance of the text of a tooltip from its border, points.
 const MARGIN: f32 = 4.0;
 
-/// Names and places of all controls.
+/// Returns the names and places of all controls.
 fn controls(window: &Window) -> Vec<(String, Rect)> {
     let roles = [Role::Button, Role::ListBoxOption, Role::RadioButton, Role::Slider, Role::Tab];
     let of = |role| {
@@ -55,7 +55,8 @@ fn a_tooltip_covers_no_part_of_its_subject() {
     assert!(told > 20, "{told} tooltips");
 }
 
-/// Number of the controls in sight that paint no text, and the names of those without a tooltip.
+/// Returns the number of controls in view that paint no text, and the names of those without a
+/// tooltip.
 fn unexplained(window: &mut Window) -> (usize, Vec<String>) {
     let whole = window.ctx.content_rect();
     let texts: Vec<Rect> = painted::runs(window).into_iter().map(|run| run.rect).collect();

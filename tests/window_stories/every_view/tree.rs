@@ -1,4 +1,4 @@
-//! The tree for screen readers: names, groups and order.
+//! Tree for screen readers: names, groups and order.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use egui_kittest::kittest::{AccessKitNode, NodeT as _, Queryable as _};
 
 use crate::window_stories::{every_view::Findings, rig::Window};
 
-/// All nodes in reading order.
+/// Returns all nodes in reading order.
 fn in_order(window: &Window) -> Vec<AccessKitNode<'_>> {
     window.root().children_recursive().map(|node| node.accesskit_node()).collect()
 }
@@ -16,7 +16,7 @@ fn in_order(window: &Window) -> Vec<AccessKitNode<'_>> {
 fn is_control(node: &AccessKitNode<'_>) -> bool {
     let data = node.data();
     let acts = data.supports_action(Action::Focus) || data.supports_action(Action::Click);
-    // Text can be selected with the pointer.
+    // A label is no control, although the pointer can select its text.
     acts && node.role() != Role::Label
 }
 
@@ -24,7 +24,7 @@ fn name(node: &AccessKitNode<'_>) -> String {
     node.label().unwrap_or_default().trim().to_owned()
 }
 
-/// Names of the groups around a node, from the outermost.
+/// Returns the names of the groups around a node, starting with the outermost.
 fn groups(node: &AccessKitNode<'_>) -> Vec<String> {
     let ancestors = std::iter::successors(node.parent(), AccessKitNode::parent);
     let mut names: Vec<String> =
@@ -37,7 +37,7 @@ fn is_hidden(node: &AccessKitNode<'_>) -> bool {
     node.is_hidden() || node.role() == Role::ScrollBar
 }
 
-/// Controls without a name, and controls of one role and name in one group.
+/// Returns faults: controls without a name, and controls of one role and name in one group.
 fn names(window: &Window) -> Vec<String> {
     let mut faults = Vec::new();
     let mut seen: BTreeMap<(Vec<String>, String, String), usize> = BTreeMap::new();
@@ -56,14 +56,14 @@ fn names(window: &Window) -> Vec<String> {
     faults
 }
 
-/// The first control, if it is not STOP.
+/// Returns a fault if the first control is not STOP.
 fn first(window: &Window) -> Option<String> {
     let nodes = in_order(window);
     let first = nodes.iter().find(|of| is_control(of)).map(name).unwrap_or_default();
     (!first.starts_with("STOP")).then(|| format!("the first control is {first:?}"))
 }
 
-/// Controls of the top bar that come after one of the rail.
+/// Returns faults: controls of the top bar that come after a control of the rail.
 fn out_of_order(window: &Window, [width, height]: [f32; 2]) -> Vec<String> {
     let (bar, rail) = (f64::from(top_bar::height(height)), f64::from(rail::width(width)));
     let nodes = in_order(window);
@@ -75,7 +75,7 @@ fn out_of_order(window: &Window, [width, height]: [f32; 2]) -> Vec<String> {
     late.map(|of| format!("{:?} comes after the rail", name(of))).collect()
 }
 
-/// Marks in a drawing that are no children of its node.
+/// Returns faults: marks in a drawing that are no children of its node.
 fn strays(window: &Window) -> Vec<String> {
     let mut faults = Vec::new();
     for canvas in window.query_all_by_role(Role::Canvas) {
@@ -93,8 +93,8 @@ fn strays(window: &Window) -> Vec<String> {
     faults
 }
 
-/// Finds controls without a name of their own in their group, a first control that is not STOP,
-/// and marks outside of their drawing. Counts the drawings.
+/// Finds controls without a distinct name in their group, a first control that is not STOP, and
+/// marks outside of their drawing. Counts the drawings.
 pub(super) fn check(window: &Window, size: [f32; 2], findings: &mut Findings) {
     let mut faults = names(window);
     faults.extend(first(window));

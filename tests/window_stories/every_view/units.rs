@@ -1,4 +1,4 @@
-//! Distances stand in the unit that was chosen, wherever they are shown.
+//! Distances in the chosen unit, in every place.
 
 use crate::window_stories::{
     every_view::{Findings, words},

@@ -1,4 +1,4 @@
-//! A make that turns an antenna by one long lever.
+//! Make that turns an antenna by one long lever.
 
 use std::{
     collections::VecDeque,
@@ -77,7 +77,7 @@ static VARIANT: Variant = Variant {
     clock: None,
 };
 
-/// Variant on one shaft, which turns the azimuth alone.
+/// Variant with one shaft, which turns only the azimuth.
 static LEVEL: Variant = Variant {
     capabilities: Capabilities {
         axes: ["Az", ""],
@@ -95,21 +95,21 @@ pub(super) const FRAGILE: &str = "G 180 45";
 
 /// Interval between two questions for the position.
 const PERIOD: Duration = Duration::from_millis(100);
-/// A longer line is noise.
+/// Max length of a line, bytes; a longer line is noise.
 const LONGEST: usize = 256;
 
-/// A protocol of lines: a code; `P?`, answered by `P` and a position; `G` and a position or `J` and
-/// two rates, answered by the same letter; `S`. TCP loses nothing, so nothing is asked twice, and
-/// an answer belongs to the one question that waits for it.
+/// Controller of a protocol of lines: a code; `P?`, answered by `P` and a position; `G` and a
+/// position or `J` and two rates, answered by the same letter; `S`. TCP loses nothing, so the
+/// controller repeats no question, and an answer belongs to the one pending question.
 struct Lever {
     greeting: String,
     state: AntennaState,
     orders: VecDeque<String>,
-    /// The motion that is queued, or sent and not answered.
+    /// Motion that is queued, or that was sent and has no answer yet.
     motion: Option<Motion>,
     events: VecDeque<ControllerEvent>,
     heard: Vec<u8>,
-    /// When the position was asked for that has not come yet.
+    /// Time of the pending question for the position.
     asked: Option<Instant>,
     next_question: Option<Instant>,
 }
@@ -160,7 +160,7 @@ impl Lever {
     ) {
         let axis = |angle_deg| Axis {
             angle_deg: Some(angle_deg),
-            // It tells of no motion: standstill is proved by angles alone.
+            // The unit reports no motion, so the angles alone prove standstill.
             motion: AxisMotion::Still,
             drive: Drive::Off,
             plus_limit: false,
@@ -173,7 +173,7 @@ impl Lever {
             pointing: AzEl::from_degrees(azimuth_deg, elevation_deg).into(),
             axes: [axis(azimuth_deg), axis(elevation_deg)],
         });
-        // It has no faults that would keep it from moving.
+        // The unit has no faults that would prevent motion.
         self.state.motion_lock = Some(false);
     }
 
@@ -228,7 +228,7 @@ impl Device for Lever {
         b"S\n".to_vec()
     }
 
-    /// Does nothing: the questions are always as frequent.
+    /// Does nothing, because the interval of the questions is fixed.
     fn watch_closely(&mut self, _: bool) {}
 
     fn motion_under_way(&self) -> bool {
@@ -262,8 +262,8 @@ impl Controller for Lever {
     }
 }
 
-/// A unit that reaches any position at once; returns its address and the lines that it
-/// hears, without questions.
+/// Starts a unit that reaches any position at once. Returns its address and the lines that it
+/// receives, without questions.
 pub(crate) fn unit() -> (String, mpsc::Receiver<String>) {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let address = listener.local_addr().unwrap().to_string();
@@ -274,7 +274,8 @@ pub(crate) fn unit() -> (String, mpsc::Receiver<String>) {
             let lines = BufReader::new(stream.try_clone().unwrap()).lines();
             for line in lines.map_while(Result::ok) {
                 if line == "P?" {
-                    // In one piece, or the second one waits for the first to be seen.
+                    // Write the answer in one piece: otherwise the second piece waits for the
+                    // acknowledgement of the first.
                     stream.write_all(format!("P {place}\n").as_bytes()).unwrap();
                     continue;
                 }
@@ -282,7 +283,7 @@ pub(crate) fn unit() -> (String, mpsc::Receiver<String>) {
                     stream.write_all(b"G\n").unwrap();
                     aim.clone_into(&mut place);
                 }
-                // The listener may have seen enough.
+                // Ignore errors: the listener may have seen enough.
                 let _ = tell.try_send(line);
             }
         }
