@@ -63,7 +63,7 @@ pub struct NetworkClient {
     pub asks_since: Option<Timestamp>,
     /// Last line from the program, and its time.
     pub last_line: Option<(String, Instant)>,
-    /// Number of STOPs without effect, because the program was not in control.
+    /// Number of stops without effect, because the program was not in control.
     pub ignored_stops: u32,
     /// Number of a command without an answer yet.
     pub pending: Option<u64>,
