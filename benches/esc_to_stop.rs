@@ -99,9 +99,8 @@ fn main() {
         // Each program has its own screen, where it keeps the focus.
         let mut benches: Vec<(Running, Bench)> = programs
             .iter()
-            .zip(94..)
-            .map(|((name, program), display)| {
-                let (screen, display) = (screen(display), format!(":{display}"));
+            .map(|(name, program)| {
+                let (screen, display) = screen();
                 (screen, Bench::start(name, program, &display, hz, stall))
             })
             .collect();
@@ -117,17 +116,24 @@ fn main() {
     }
 }
 
-fn screen(display: u32) -> Running {
+/// Starts an X server with a free number, waits until it takes clients, and returns it with the
+/// name of its display.
+fn screen() -> (Running, String) {
     let screen = Command::new("Xvfb")
-        .args([&format!(":{display}"), "-screen", "0", "1440x900x24", "-nolisten", "tcp"])
+        .args(["-displayfd", "1", "-screen", "0", "1440x900x24", "-nolisten", "tcp"])
         // Without this option, Xvfb restarts whenever its last client leaves, and drops a new
         // client.
         .arg("-noreset")
+        .stdout(Stdio::piped())
         .stderr(Stdio::null())
         .spawn();
-    let screen = Running(screen.expect("Xvfb is installed"));
-    sleep(Duration::from_secs(1));
-    screen
+    let mut screen = Running(screen.expect("Xvfb is installed"));
+    let mut number = String::new();
+    BufReader::new(screen.0.stdout.take().expect("piped"))
+        .read_line(&mut number)
+        .expect("the number of the display");
+    assert!(!number.is_empty(), "Xvfb ended before it took clients");
+    (screen, format!(":{}", number.trim()))
 }
 
 /// First words of the requests whose arrival the relay reports.

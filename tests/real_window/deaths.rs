@@ -8,7 +8,6 @@ use std::{
     os::unix::process::CommandExt as _,
     path::PathBuf,
     process::{Command, Stdio},
-    sync::atomic::{AtomicU32, Ordering},
     thread,
     time::Duration,
 };
@@ -44,10 +43,8 @@ struct Scene {
     dead_men: Vec<Process>,
 }
 
-/// Creates a screen that no other test of this process has.
 fn screen() -> Screen {
-    static NEXT: AtomicU32 = AtomicU32::new(131);
-    Screen::new(NEXT.fetch_add(1, Ordering::Relaxed), "1440x900")
+    Screen::new("1440x900")
 }
 
 fn command(screen: &Screen, unit: &Unit) -> Command {

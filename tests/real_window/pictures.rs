@@ -261,9 +261,9 @@ struct Scene {
 }
 
 impl Scene {
-    fn new(number: u32, size: [u32; 2], tracked: &Tracked) -> Self {
+    fn new(size: [u32; 2], tracked: &Tracked) -> Self {
         let [width, height] = size.map(|side| side.to_string());
-        let screen = Screen::new(number, &format!("{width}x{height}"));
+        let screen = Screen::new(&format!("{width}x{height}"));
         tracked.put(&screen.folder.path().join(".local/share/azel/records"));
         let (azel, window) = screen.azel(&["--demo"]);
         screen.xdotool(&["windowmove", &window, "0", "0"]);
@@ -404,7 +404,7 @@ fn every_view_shows_itself_and_stop() {
     let wanted = std::env::var(LONG_FORM).ok();
     let (folder, tracked) = (folder(), Tracked::new());
     let mut taken = 0;
-    for (number, size) in SIZES.into_iter().enumerate() {
+    for size in SIZES {
         let word = format!("{}x{}", size[0], size[1]);
         let (is_taken, themes) = match wanted.as_deref() {
             None => (size == SIZES[1], &THEMES[..1]),
@@ -412,7 +412,7 @@ fn every_view_shows_itself_and_stop() {
             Some(sizes) => (sizes.split(',').any(|of| of == word), &THEMES[..]),
         };
         if is_taken {
-            taken += Scene::new(171 + number as u32, size, &tracked).take(themes, &folder);
+            taken += Scene::new(size, &tracked).take(themes, &folder);
         }
     }
     println!("{taken} pictures in {}", folder.display());

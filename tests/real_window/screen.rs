@@ -90,28 +90,27 @@ pub(super) struct Screen {
 }
 
 impl Screen {
-    pub(super) fn new(number: u32, size: &str) -> Self {
-        let display = format!(":{number}");
-        let server = Running::start(
+    /// Starts an X server with a screen of `size`, for example "1440x900", and waits until it takes
+    /// clients. The server chooses a free number: a number of the test could be one whose lock an
+    /// earlier server left behind.
+    pub(super) fn new(size: &str) -> Self {
+        let mut server = Running::start(
             Command::new("Xvfb")
-                .args([&display, "-screen", "0", &format!("{size}x24"), "-nolisten", "tcp"])
+                .args(["-displayfd", "1", "-screen", "0", &format!("{size}x24")])
+                .args(["-nolisten", "tcp"])
                 // Without this option, Xvfb restarts whenever its last client leaves, and drops a
                 // new one.
                 .arg("-noreset")
+                .stdout(Stdio::piped())
                 .stderr(Stdio::null()),
         );
-        let screen = Self { display, server, folder: tempfile::tempdir().expect("a folder") };
-        wait_for("the screen", || {
-            screen
-                .command("xdotool")
-                .arg("getmouselocation")
-                .output()
-                .ok()?
-                .status
-                .success()
-                .then_some(())
-        });
-        screen
+        let mut number = String::new();
+        BufReader::new(server.0.stdout.take().expect("piped"))
+            .read_line(&mut number)
+            .expect("the number of the display");
+        assert!(!number.is_empty(), "Xvfb ended before it took clients");
+        let display = format!(":{}", number.trim());
+        Self { display, server, folder: tempfile::tempdir().expect("a folder") }
     }
 
     pub(super) fn command(&self, program: &str) -> Command {

@@ -19,7 +19,7 @@ fn hold_x_plus(screen: &Screen, satrak: &mut Satrak) {
 #[test]
 #[ignore = "needs Xvfb, xdotool, ImageMagick and OpenGL"]
 fn the_demo_station_shows_a_moving_picture() {
-    let screen = Screen::new(91, "1440x900");
+    let screen = Screen::new("1440x900");
     let (_azel, _) = screen.azel(&[]);
     let first = wait_for("a picture", || {
         let picture = screen.picture();
@@ -32,7 +32,7 @@ fn the_demo_station_shows_a_moving_picture() {
 #[test]
 #[ignore = "needs Xvfb, xdotool, ImageMagick and OpenGL"]
 fn a_jog_ends_with_its_key_with_esc_and_with_the_window() {
-    let screen = Screen::new(92, "1440x900");
+    let screen = Screen::new("1440x900");
     let mut satrak = Satrak::start("127.0.0.1:0");
     let station = screen.station_file(satrak.address);
     let (mut azel, window) = screen.azel(&["--station", &station.to_string_lossy()]);
@@ -68,7 +68,7 @@ fn a_jog_ends_with_its_key_with_esc_and_with_the_window() {
 #[test]
 #[ignore = "needs Xvfb, xdotool, ImageMagick and OpenGL"]
 fn a_unit_that_comes_back_is_read_again() {
-    let screen = Screen::new(93, "1440x900");
+    let screen = Screen::new("1440x900");
     let mut satrak = Satrak::start("127.0.0.1:0");
     let address = satrak.address;
     let station = screen.station_file(address);
