@@ -262,12 +262,12 @@ impl Driver {
         let sessions = tokio_util::task::TaskTracker::new();
         let (runtime, thread) = DriverThread::start(sessions.clone(), &wake)?;
         let thread = Some(thread);
-        Ok(Self { thread, sessions, ..Self::within(runtime, outside.into(), wake) })
+        Ok(Self { thread, sessions, ..Self::on_runtime(runtime, outside.into(), wake) })
     }
 
     /// Runs the sessions on a runtime of the caller, such as a rehearsal. This driver has no
     /// watchdog, and its end waits for no session.
-    pub fn within(runtime: tokio::runtime::Handle, outside: Outside, wake: Wake) -> Self {
+    pub fn on_runtime(runtime: tokio::runtime::Handle, outside: Outside, wake: Wake) -> Self {
         Self {
             runtime,
             thread: None,
@@ -344,8 +344,9 @@ impl Driver {
             let (wires, debts) = (ends.clone(), debts.clone());
             // Includes the lock-out of a session that broke down.
             let lock_out = wires.shown_lock_out();
-            let session = Session::over(controller, &antenna, dial, clock.clone(), wires, debts)
-                .locked_out(lock_out);
+            let session =
+                Session::with_wires(controller, &antenna, dial, clock.clone(), wires, debts)
+                    .locked_out(lock_out);
             match &dead_man {
                 Some(program) => session.guarded_by(program.clone()),
                 None => session,
@@ -453,10 +454,10 @@ mod tests {
         *,
     };
 
-    fn wait_for(what: &str, is_so: impl Fn() -> bool) {
-        let until = Instant::now() + Duration::from_secs(20);
+    fn wait_for(goal: &str, is_so: impl Fn() -> bool) {
+        let deadline = Instant::now() + Duration::from_secs(20);
         while !is_so() {
-            assert!(Instant::now() < until, "{what}");
+            assert!(Instant::now() < deadline, "{goal}");
             thread::sleep(Duration::from_millis(20));
         }
     }
@@ -499,9 +500,10 @@ mod tests {
     #[tokio::test(start_paused = true)]
     async fn stop_waits_for_no_session_that_rests_after_a_breakdown() {
         let clock = Clock::at_speed(START, NonZeroU32::MIN);
-        let (of, now) = (antenna(), clock.now().steady);
-        let bounds = Bounds::of_antenna(&of);
-        let (wires, handle) = Wires::new(&of, bounds, now, Arc::new(|| {}), &Orders::default());
+        let (antenna, now) = (antenna(), clock.now().steady);
+        let bounds = Bounds::of_antenna(&antenna);
+        let (wires, handle) =
+            Wires::new(&antenna, bounds, now, Arc::new(|| {}), &Orders::default());
         let dialled = Arc::new(AtomicUsize::new(0));
         let (counts, ends) = (Arc::clone(&dialled), wires.clone());
         let open = move || {
@@ -511,7 +513,14 @@ mod tests {
                 panic!("the link breaks down with its session");
             });
             let debts = Debts::marked_in(None);
-            Session::over(of.controller(), &of, dial, clock.clone(), ends.clone(), debts)
+            Session::with_wires(
+                antenna.controller(),
+                &antenna,
+                dial,
+                clock.clone(),
+                ends.clone(),
+                debts,
+            )
         };
         tokio::spawn(keep_alive(open, wires));
         // By now, the session pauses for about five seconds before each restart.

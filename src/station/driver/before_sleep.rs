@@ -144,16 +144,16 @@ mod logind {
 
         #[zbus::interface(name = "org.freedesktop.login1.Manager")]
         impl Manager {
-            fn inhibit(&self, what: &str, who: &str, why: &str, mode: &str) -> Fd<'static> {
-                assert_eq!((what, mode), ("sleep", "delay"));
-                assert!(!who.is_empty() && !why.is_empty());
+            fn inhibit(&self, kind: &str, name: &str, reason: &str, mode: &str) -> Fd<'static> {
+                assert_eq!((kind, mode), ("sleep", "delay"));
+                assert!(!name.is_empty() && !reason.is_empty());
                 let (near, far) = UnixStream::pair().unwrap();
                 self.0.send(near).unwrap();
                 Fd::from(std::os::fd::OwnedFd::from(far))
             }
 
             #[zbus(signal)]
-            async fn prepare_for_sleep(from: &SignalEmitter<'_>, begins: bool) -> Result<()>;
+            async fn prepare_for_sleep(emitter: &SignalEmitter<'_>, begins: bool) -> Result<()>;
         }
 
         fn in_thread<T: Send + 'static>(
@@ -183,11 +183,11 @@ mod logind {
             let server = in_thread("test-bus", serve);
             let client = Builder::async_io_unix_stream(near).p2p().build().unwrap();
             let server = server.join().unwrap().unwrap();
-            let (told, hears) = mpsc::sync_channel(4);
+            let (sender, receiver) = mpsc::sync_channel(4);
             let (go_on, waits) = mpsc::sync_channel::<()>(4);
             let watching = in_thread("test-watch", move || {
                 watch(&client, || {
-                    told.send(()).unwrap();
+                    sender.send(()).unwrap();
                     waits.recv_timeout(PATIENCE).unwrap();
                 })
             });
@@ -198,7 +198,7 @@ mod logind {
                 zbus::block_on(Manager::prepare_for_sleep(&emitter, begins)).unwrap();
             };
             tell(true);
-            hears.recv_timeout(PATIENCE).unwrap();
+            receiver.recv_timeout(PATIENCE).unwrap();
             assert!(is_held(&lock), "before all is quiet");
             go_on.send(()).unwrap();
             // Wait for the end of the stream.
@@ -250,8 +250,8 @@ mod tests {
             seconds(0.1).await;
         }
         assert!(!unit.state().is_moving);
-        let told: Vec<Event> = std::iter::from_fn(|| handle.next_event()).collect();
-        assert!(told.contains(&Event::Safety(Safety::EndedForSleep)), "{told:?}");
+        let events: Vec<Event> = std::iter::from_fn(|| handle.next_event()).collect();
+        assert!(events.contains(&Event::Safety(Safety::EndedForSleep)), "{events:?}");
     }
 
     #[tokio::test(start_paused = true)]

@@ -45,8 +45,8 @@ fn file_name(unit: &Unit, ending: &str) -> String {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::driver) struct Mark {
     /// Start of the manual motion or time of the STOP; `None` if the file is unreadable.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(in crate::driver) since: Option<Timestamp>,
+    #[serde(rename = "since", default, skip_serializing_if = "Option::is_none")]
+    pub(in crate::driver) start: Option<Timestamp>,
     /// Last time at which a session recorded a pending attempt to stop the unit. Earlier versions
     /// did not record this time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -56,7 +56,7 @@ pub(in crate::driver) struct Mark {
 impl Mark {
     /// Returns the last time at which a session is known to have attended to the unit.
     pub(in crate::driver) fn last_tried(self) -> Option<Timestamp> {
-        self.tried.max(self.since)
+        self.tried.max(self.start)
     }
 }
 
@@ -72,7 +72,8 @@ struct Record<T> {
 /// Content of the auto-track file, besides the unit.
 #[derive(Debug, Serialize, Deserialize)]
 struct AutoTrack {
-    since: Timestamp,
+    #[serde(rename = "since")]
+    start: Timestamp,
 }
 
 impl Ledger {
@@ -114,11 +115,11 @@ struct Ledger {
 impl Debts {
     /// Loads the debts that an earlier run left in `folder`, and keeps files there.
     pub fn marked_in(folder: Option<PathBuf>) -> Self {
-        Self::over(folder, Promises::default())
+        Self::with_promises(folder, Promises::default())
     }
 
     /// Does the same as [`Self::marked_in`] with the given store of promises.
-    pub(in crate::driver) fn over(folder: Option<PathBuf>, promises: Promises) -> Self {
+    pub(in crate::driver) fn with_promises(folder: Option<PathBuf>, promises: Promises) -> Self {
         let debts = Self { folder: folder.map(Arc::from), promises, ..Self::default() };
         if let Some(folder) = debts.folder.as_deref() {
             lowercase_names(folder, &debts.promises);
@@ -200,11 +201,11 @@ impl Debts {
     /// Does the same as [`Self::owe_auto_track_off`], also for the next start, because no antenna
     /// has this unit any more. Blocks until the record is on disk; the error contains the reason
     /// for a failure.
-    pub fn mark_auto_track_off(&self, unit: &Unit, since: Timestamp) -> Result<(), String> {
+    pub fn mark_auto_track_off(&self, unit: &Unit, start: Timestamp) -> Result<(), String> {
         let mut ledger = self.ledger();
         ledger.auto_track.insert(unit.clone());
         let Some(path) = self.path(unit, AUTO_TRACK) else { return Ok(()) };
-        let work = self.promises.request(&path, file(unit, AutoTrack { since })?);
+        let work = self.promises.request(&path, file(unit, AutoTrack { start })?);
         drop(ledger);
         self.promises.finish(&path, work)
     }
@@ -239,13 +240,13 @@ impl Debts {
 
     /// Records the start of the motion of `unit` without proved standstill. Ignores all sessions
     /// except the newest.
-    pub(super) fn keep_unproved(&self, unit: &Unit, session: u64, since: Option<Instant>) {
+    pub(super) fn keep_unproved(&self, unit: &Unit, session: u64, start: Option<Instant>) {
         let mut ledger = self.ledger();
         if ledger.sessions.get(unit).is_none_or(|(newest, _)| *newest != session) {
             return;
         }
-        match since {
-            Some(since) => drop(ledger.unproved.insert(unit.clone(), since)),
+        match start {
+            Some(start) => drop(ledger.unproved.insert(unit.clone(), start)),
             None => drop(ledger.unproved.remove(unit)),
         }
     }
@@ -314,7 +315,7 @@ impl Debts {
 
     /// Reads the mark of `unit` from disk. An unreadable mark has no time. Blocks.
     pub(super) fn marked(&self, unit: &Unit) -> Option<Mark> {
-        let unreadable = Mark { since: None, tried: None };
+        let unreadable = Mark { start: None, tried: None };
         match self.promises.read(&self.path(unit, STOP)?) {
             Ok(text) => Some(toml::from_str(&text?).unwrap_or(unreadable)),
             Err(_) => Some(unreadable),

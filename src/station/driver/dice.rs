@@ -14,15 +14,15 @@ impl Dice {
         Self(TestRng::from_seed(RngAlgorithm::ChaCha, &bytes))
     }
 
-    pub(super) fn between(&mut self, from: f64, to: f64) -> f64 {
-        from + (to - from) * (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+    pub(super) fn draw(&mut self, min: f64, max: f64) -> f64 {
+        min + (max - min) * (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     pub(super) fn chance(&mut self, share: f64) -> bool {
-        self.between(0.0, 1.0) < share
+        self.draw(0.0, 1.0) < share
     }
 
     pub(super) fn below(&mut self, end: usize) -> usize {
-        self.between(0.0, end as f64) as usize
+        self.draw(0.0, end as f64) as usize
     }
 }

@@ -148,7 +148,7 @@ impl Gate {
 
     /// Removes the rule with this name.
     #[cfg(test)]
-    fn without(mut self, name: &str) -> Self {
+    fn omit(mut self, name: &str) -> Self {
         let before = self.rules.len();
         self.rules.retain(|rule| rule.name != name);
         assert_eq!(self.rules.len() + 1, before, "no rule is called {name}");
@@ -271,8 +271,8 @@ impl Gate {
     /// age of the position, the time until the next position, and the overrun.
     pub(super) fn ahead_s(&self, now: Moment) -> f64 {
         let Some(measured) = self.state().measured else { return self.overrun_s };
-        let asked = self.angles_asked().unwrap_or(measured.requested);
-        let age = now.steady.saturating_duration_since(asked);
+        let requested = self.angles_asked().unwrap_or(measured.requested);
+        let age = now.steady.saturating_duration_since(requested);
         let reply = measured.received.saturating_duration_since(measured.requested);
         // Azel judges a motion again when the next position arrives, which may take as long as the
         // last.
@@ -323,9 +323,9 @@ impl Gate {
         Ok(())
     }
 
-    fn examine(&self, asked: MotionRequest, situation: &Situation<'_>) -> Result<(), Refusal> {
-        self.ask_rules(|check| match (check, &asked) {
-            (Check::Moving(check), asked) => check(asked, situation),
+    fn examine(&self, request: MotionRequest, situation: &Situation<'_>) -> Result<(), Refusal> {
+        self.ask_rules(|check| match (check, &request) {
+            (Check::Moving(check), request) => check(request, situation),
             (Check::Motion(check), MotionRequest::Motion(motion)) => check(motion, situation),
             _ => Ok(()),
         })

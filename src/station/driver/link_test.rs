@@ -61,22 +61,22 @@ async fn talk(
     let (mut reader, mut writer) = tokio::io::split(stream);
     let (mut buffer, mut heard) = ([0; 1024], Vec::new());
     let start = clock.now();
-    let mut until = start.steady + longest;
-    let (mut asked, mut replied) = (None, None);
+    let mut deadline = start.steady + longest;
+    let (mut sent, mut replied) = (None, None);
     let mut is_open = true;
     device.link_up(start);
     while is_open {
         let now = clock.now();
-        if now.steady >= until {
+        if now.steady >= deadline {
             break;
         }
         while let Some(bytes) = device.poll(now) {
             let written = clock.timeout(WRITE, writer.write_all(&bytes)).await;
             is_open &= matches!(written, Ok(Ok(())));
             device.sent(&bytes, now);
-            asked = asked.or(Some(now.steady));
+            sent = sent.or(Some(now.steady));
         }
-        let due = device.due(now).max(now.steady + MIN_WAIT).min(until);
+        let due = device.due(now).max(now.steady + MIN_WAIT).min(deadline);
         tokio::select! {
             read = reader.read(&mut buffer) => {
                 let bytes = buffer.get(..read.unwrap_or(0)).unwrap_or_default();
@@ -86,7 +86,7 @@ async fn talk(
                 device.receive(bytes, now);
                 if replied.is_none() && device.state().traffic.replies > 0 {
                     replied = Some(now.steady);
-                    until = until.min(now.steady + MORE);
+                    deadline = deadline.min(now.steady + MORE);
                 }
             }
             () = clock.sleep_until(due) => {}
@@ -97,9 +97,9 @@ async fn talk(
     // The unit may have disconnected first.
     let _ = clock.timeout(WRITE, writer.shutdown()).await;
     device.link_down(clock.now());
-    match (asked, replied) {
-        (Some(asked), Some(replied)) => LinkFinding::Reached {
-            after: replied.saturating_duration_since(asked),
+    match (sent, replied) {
+        (Some(sent), Some(replied)) => LinkFinding::Reached {
+            after: replied.saturating_duration_since(sent),
             state: Box::new(device.state().clone()),
         },
         _ if !heard.is_empty() => LinkFinding::SomethingElse { text: printable(&heard) },

@@ -43,7 +43,7 @@ pub(super) struct AxisReading {
     pub(super) angle_deg: f64,
     pub(super) motion: AxisMotion,
     pub(super) drive: Drive,
-    pub(super) asked: Instant,
+    pub(super) requested: Instant,
     pub(super) received: Instant,
 }
 

@@ -57,26 +57,26 @@ impl Pulse {
         let pulse = self.clone();
         thread::Builder::new().name("azel-watchdog".to_owned()).spawn(move || {
             let mut watchdog = Watchdog::new(Instant::now());
-            let mut told: Option<Instant> = None;
+            let mut last_report: Option<Instant> = None;
             while end.recv_timeout(PERIOD) == Err(mpsc::RecvTimeoutError::Timeout) {
                 let now = Instant::now();
                 let stood = watchdog.look(pulse.0.beats.load(Ordering::Relaxed), now);
                 let ms = stood.map_or(0, |stood| stood.as_millis() as u64);
                 pulse.0.stood_ms.store(ms, Ordering::Relaxed);
-                if stood.is_some() != told.is_some() {
+                if stood.is_some() != last_report.is_some() {
                     if let Some(stood) = stood {
                         tracing::error!(?stood, "the driver does not respond");
                     } else {
                         tracing::warn!("the driver responds again");
                     }
                 }
-                let due = told.is_none_or(|told| now.duration_since(told) >= REMIND);
+                let due = last_report.is_none_or(|last| now.duration_since(last) >= REMIND);
                 match stood {
                     Some(_) if due => {
-                        told = Some(now);
+                        last_report = Some(now);
                         wake();
                     }
-                    None if told.take().is_some() => wake(),
+                    None if last_report.take().is_some() => wake(),
                     _ => {}
                 }
             }
@@ -90,13 +90,13 @@ impl Pulse {
 struct Watchdog {
     beats: u64,
     /// Time of the last observed change of the beats.
-    since: Instant,
+    changed: Instant,
     looked: Instant,
 }
 
 impl Watchdog {
     fn new(now: Instant) -> Self {
-        Self { beats: 0, since: now, looked: now }
+        Self { beats: 0, changed: now, looked: now }
     }
 
     /// Returns how long the driver has hung at `now`, after this number of `beats`.
@@ -104,9 +104,9 @@ impl Watchdog {
         let was_held_up = now.saturating_duration_since(self.looked) >= LATE;
         self.looked = now;
         if beats != self.beats || was_held_up {
-            (self.beats, self.since) = (beats, now);
+            (self.beats, self.changed) = (beats, now);
         }
-        let stood = now.saturating_duration_since(self.since);
+        let stood = now.saturating_duration_since(self.changed);
         (stood >= STANDS_AFTER).then_some(stood)
     }
 }
@@ -145,7 +145,7 @@ mod tests {
         assert_eq!(watchdog.look(0, thawed), None);
         assert_eq!(watchdog.look(1, thawed + PERIOD), None);
         let stands = |tenths: u32| thawed + tenths * PERIOD;
-        let seen: Vec<_> = (2..8).map(|tenths| watchdog.look(1, stands(tenths))).collect();
-        assert_eq!(seen[4], Some(STANDS_AFTER));
+        let results: Vec<_> = (2..8).map(|tenths| watchdog.look(1, stands(tenths))).collect();
+        assert_eq!(results[4], Some(STANDS_AFTER));
     }
 }

@@ -14,7 +14,6 @@ mod effect_watch;
 mod guard;
 mod halt;
 mod hands;
-mod inside;
 mod io_loop;
 mod jog;
 mod jog_key;
@@ -37,6 +36,7 @@ mod place;
 mod pointing;
 mod program_track;
 mod recheck;
+mod release;
 mod setup;
 mod shutdown;
 mod silence;
@@ -52,7 +52,7 @@ mod unanswered;
 mod unit_debts;
 mod unit_offsets;
 mod unproved;
-mod wanted;
+mod way_out;
 mod wires;
 mod write_settings;
 
@@ -119,11 +119,11 @@ impl Session {
         let bounds = Bounds::of_antenna(antenna);
         let now = clock.now().steady;
         let (wires, handle) = Wires::new(antenna, bounds, now, wake, &Orders::default());
-        (Self::over(controller, antenna, dial, clock, wires, debts), handle)
+        (Self::with_wires(controller, antenna, dial, clock, wires, debts), handle)
     }
 
     /// Creates a session of `antenna` on these channels, which records owed STOPs in `debts`.
-    pub(super) fn over(
+    pub(super) fn with_wires(
         controller: Box<dyn Controller>,
         antenna: &Antenna,
         dial: Dial,
@@ -205,8 +205,8 @@ impl Session {
 
     /// Returns the path to the direction that the operator previews.
     fn preview(&self, now: Moment) -> Option<Arc<Preview>> {
-        let to = self.commanded.preview?;
-        Some(Arc::new(Preview { target: to, way: self.gate.way_to(to, now) }))
+        let target = self.commanded.preview?;
+        Some(Arc::new(Preview { target, way: self.gate.way_to(target, now) }))
     }
 
     /// Copies the link traffic to the wire log, and the position to its log.

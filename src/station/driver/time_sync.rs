@@ -42,8 +42,8 @@ mod systemd {
     }
 
     pub(super) fn ask(bus: &Connection) -> Result<TimeSync> {
-        let what = (SERVICE, "NTPSynchronized");
-        let reply = bus.call_method(Some(SERVICE), OBJECT, Some(PROPERTIES), "Get", &what)?;
+        let property = (SERVICE, "NTPSynchronized");
+        let reply = bus.call_method(Some(SERVICE), OBJECT, Some(PROPERTIES), "Get", &property)?;
         let value: OwnedValue = reply.body().deserialize()?;
         let synchronised = bool::try_from(value)?;
         Ok(if synchronised { TimeSync::Synchronised } else { TimeSync::NotSynchronised })
@@ -72,7 +72,7 @@ mod systemd {
         #[zbus::interface(name = "org.example.another")]
         impl AnotherService {}
 
-        fn asked(service: impl Interface) -> Result<TimeSync> {
+        fn ask_service(service: impl Interface) -> Result<TimeSync> {
             let (near, far) = UnixStream::pair()?;
             let serve = move || {
                 let builder = Builder::async_io_unix_stream(far).server(Guid::generate())?.p2p();
@@ -87,13 +87,13 @@ mod systemd {
 
         #[test]
         fn the_service_says_how_the_clock_is_kept() {
-            assert_eq!(asked(TimeService(true)).unwrap(), TimeSync::Synchronised);
-            assert_eq!(asked(TimeService(false)).unwrap(), TimeSync::NotSynchronised);
+            assert_eq!(ask_service(TimeService(true)).unwrap(), TimeSync::Synchronised);
+            assert_eq!(ask_service(TimeService(false)).unwrap(), TimeSync::NotSynchronised);
         }
 
         #[test]
         fn a_bus_without_the_service_tells_nothing() {
-            assert!(asked(AnotherService).is_err());
+            assert!(ask_service(AnotherService).is_err());
         }
     }
 }

@@ -33,7 +33,7 @@ impl InPlace {
         // Discard events: the snapshots have their content too.
         runtime.spawn(async move { while events.recv().await.is_some() {} });
         let woken = Arc::new(Notify::new());
-        let driver = Driver::within(runtime, outside.clone(), wake_of(&woken))
+        let driver = Driver::on_runtime(runtime, outside.clone(), wake_of(&woken))
             .marking_in(settings.marks.clone());
         let outbox = Outbox { events: tell, wake: Arc::new(|| {}) };
         let weak = requests.downgrade();

@@ -62,9 +62,9 @@ fn outlived_signals() -> Vec<Signal> {
 /// Waits for the end of the beats; returns `false` if the motion is over.
 fn beat_ends(input: BorrowedFd<'_>) -> bool {
     let mut bytes = [0; 64];
-    let mut until = Instant::now() + SILENCE;
+    let mut deadline = Instant::now() + SILENCE;
     loop {
-        let left = until.saturating_duration_since(Instant::now());
+        let left = deadline.saturating_duration_since(Instant::now());
         if left.is_zero() {
             return true;
         }
@@ -78,7 +78,7 @@ fn beat_ends(input: BorrowedFd<'_>) -> bool {
                 if bytes.iter().take(count).any(|byte| *byte == word::END) {
                     return false;
                 }
-                until = Instant::now() + SILENCE;
+                deadline = Instant::now() + SILENCE;
             }
             Err(Errno::EINTR | Errno::EAGAIN) => {}
             Ok(0) | Err(_) => return true,
@@ -120,7 +120,7 @@ fn insist(stop: &[u8]) {
     TcpStream::from(link).shutdown(Shutdown::Both).ok();
 }
 
-fn wait_for(link: &OwnedFd, until: Instant) {
-    let left = until.saturating_duration_since(Instant::now());
+fn wait_for(link: &OwnedFd, deadline: Instant) {
+    let left = deadline.saturating_duration_since(Instant::now());
     poll(&mut [PollFd::new(link.as_fd(), PollFlags::POLLOUT)], in_time(left)).ok();
 }

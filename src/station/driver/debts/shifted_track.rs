@@ -18,7 +18,8 @@ const MAX_PUT: usize = 64;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::driver) struct ShiftedTrack {
     /// Time just before the first offset was written.
-    pub(in crate::driver) since: Timestamp,
+    #[serde(rename = "since")]
+    pub(in crate::driver) start: Timestamp,
     /// Previous offsets of the unit in azimuth and elevation.
     pub(in crate::driver) before: TrackOffsets,
     /// Offsets that the unit may have now: the last values read back, and all values written since.
@@ -36,7 +37,8 @@ pub(in crate::driver) struct ShiftedTrack {
 pub(in crate::driver) struct AddedTo {
     pub(in crate::driver) catalog_number: u32,
     /// End of the track by the unit's clock.
-    pub(in crate::driver) until: Timestamp,
+    #[serde(rename = "until")]
+    pub(in crate::driver) end: Timestamp,
 }
 
 impl ShiftedTrack {
@@ -45,27 +47,27 @@ impl ShiftedTrack {
         (unit, Self { is_found: true, ..shifted })
     }
 
-    /// Returns the part of `held`, the reported offsets, that Azel added to the previous offsets;
-    /// `None` if any component does not come from Azel.
-    pub(in crate::driver) fn added(&self, held: TrackOffsets) -> Option<TrackOffsets> {
+    /// Returns the part of `current`, the reported offsets, that Azel added to the previous
+    /// offsets; `None` if any component does not come from Azel.
+    pub(in crate::driver) fn added(&self, current: TrackOffsets) -> Option<TrackOffsets> {
         let is_ours = [TrackOffsets::azimuth, TrackOffsets::elevation]
             .into_iter()
-            .all(|component| self.may_hold(component, held));
-        is_ours.then(|| held.less(self.before)).flatten()
+            .all(|component| self.may_hold(component, current));
+        is_ours.then(|| current.less(self.before)).flatten()
     }
 
-    /// Returns `true` if this component of `held` is the previous value or a value that Azel wrote.
-    /// The components of one write may take effect one after the other.
-    fn may_hold(&self, component: fn(TrackOffsets) -> Angle, held: TrackOffsets) -> bool {
-        let mut known = self.put.iter().chain([&self.before]);
-        known.any(|known| component(*known) == component(held))
+    /// Returns `true` if this component of `current` is the previous value or a value that Azel
+    /// wrote. The components of one write may take effect one after the other.
+    fn may_hold(&self, component: fn(TrackOffsets) -> Angle, current: TrackOffsets) -> bool {
+        let mut candidates = self.put.iter().chain([&self.before]);
+        candidates.any(|offsets| component(*offsets) == component(current))
     }
 
-    /// Removes each component that somebody else has set according to `held`, because Azel leaves
-    /// such a component alone. Returns `None` if none remains.
-    pub(in crate::driver) fn without_foreign(self, held: TrackOffsets) -> Option<Self> {
+    /// Removes each component that somebody else has set according to `current`, because Azel
+    /// leaves such a component alone. Returns `None` if none remains.
+    pub(in crate::driver) fn without_foreign(self, current: TrackOffsets) -> Option<Self> {
         let restored = |component: fn(TrackOffsets) -> Angle| {
-            component(if self.may_hold(component, held) { self.before } else { held })
+            component(if self.may_hold(component, current) { self.before } else { current })
         };
         let before = TrackOffsets::NONE
             .plus(Offset::Azimuth(restored(TrackOffsets::azimuth)))?
@@ -75,7 +77,7 @@ impl ShiftedTrack {
 
     /// Records that the unit may have `offsets` from now on.
     pub(in crate::driver) fn may_be(&mut self, offsets: TrackOffsets) {
-        self.put.retain(|known| *known != offsets);
+        self.put.retain(|other| *other != offsets);
         if self.put.len() >= MAX_PUT {
             self.put.remove(0);
         }
@@ -149,14 +151,14 @@ mod tests {
         TrackOffsets::NONE.plus(Offset::Azimuth(Angle::from_degrees(degrees))).unwrap()
     }
 
-    fn both(azimuth_deg: f64, elevation_deg: f64) -> TrackOffsets {
+    fn pair(azimuth_deg: f64, elevation_deg: f64) -> TrackOffsets {
         let elevation = Offset::Elevation(Angle::from_degrees(elevation_deg));
         azimuth(azimuth_deg).plus(elevation).unwrap()
     }
 
     fn put(before: TrackOffsets, put: &[TrackOffsets]) -> ShiftedTrack {
-        let since = Timestamp::UNIX_EPOCH;
-        ShiftedTrack { since, before, put: put.to_vec(), track: None, is_found: false }
+        let start = Timestamp::UNIX_EPOCH;
+        ShiftedTrack { start, before, put: put.to_vec(), track: None, is_found: false }
     }
 
     fn unit() -> Unit {
@@ -167,7 +169,7 @@ mod tests {
     fn what_was_written_outlives_the_program_until_it_is_taken_back() {
         let folder = tempfile::tempdir().unwrap();
         let debts = || Debts::marked_in(Some(folder.path().join("marks")));
-        let track = Some(AddedTo { catalog_number: 25_544, until: Timestamp::UNIX_EPOCH });
+        let track = Some(AddedTo { catalog_number: 25_544, end: Timestamp::UNIX_EPOCH });
         let shifted = ShiftedTrack { track, ..put(azimuth(-0.1), &[azimuth(0.1), azimuth(0.2)]) };
         let first = debts();
         first.set_shifted(&unit(), Some(shifted.clone()));
@@ -187,26 +189,26 @@ mod tests {
 
     #[test]
     fn each_component_is_taken_back_by_itself() {
-        let shifted = put(both(0.25, -0.1), &[both(0.25, -0.1), both(0.45, 0.0)]);
+        let shifted = put(pair(0.25, -0.1), &[pair(0.25, -0.1), pair(0.45, 0.0)]);
         // The unit has restored the azimuth but not yet the elevation.
-        assert_eq!(shifted.added(both(0.25, 0.0)), Some(both(0.0, 0.1)));
-        assert_eq!(shifted.clone().without_foreign(both(0.25, 0.0)), Some(shifted.clone()));
+        assert_eq!(shifted.added(pair(0.25, 0.0)), Some(pair(0.0, 0.1)));
+        assert_eq!(shifted.clone().without_foreign(pair(0.25, 0.0)), Some(shifted.clone()));
         // Somebody else has set the azimuth.
-        assert_eq!(shifted.added(both(0.7, 0.0)), None);
-        let left = shifted.without_foreign(both(0.7, 0.0)).unwrap();
-        assert_eq!(left.added(both(0.7, 0.0)), Some(both(0.0, 0.1)));
+        assert_eq!(shifted.added(pair(0.7, 0.0)), None);
+        let left = shifted.without_foreign(pair(0.7, 0.0)).unwrap();
+        assert_eq!(left.added(pair(0.7, 0.0)), Some(pair(0.0, 0.1)));
     }
 
     #[test]
     fn what_another_azel_has_recorded_or_taken_back_meanwhile_is_found() {
         let folder = tempfile::tempdir().unwrap();
-        let [here, there] = [(); 2].map(|()| Debts::marked_in(Some(folder.path().to_owned())));
+        let [here, other] = [(); 2].map(|()| Debts::marked_in(Some(folder.path().to_owned())));
         let shifted = |degrees| put(TrackOffsets::NONE, &[azimuth(degrees)]);
-        there.set_shifted(&unit(), Some(shifted(0.1)));
+        other.set_shifted(&unit(), Some(shifted(0.1)));
         here.find_shifted(&unit());
         let found = ShiftedTrack { is_found: true, ..shifted(0.1) };
         assert_eq!(here.shifted(&unit()), Some(found));
-        there.set_shifted(&unit(), None);
+        other.set_shifted(&unit(), None);
         here.find_shifted(&unit());
         assert_eq!(here.shifted(&unit()), None);
         here.set_shifted(&unit(), Some(shifted(0.2)));

@@ -7,16 +7,16 @@ fn unit(address: &str) -> Unit {
     Unit { make: "satrak".to_owned(), address: address.to_owned() }
 }
 
-fn at(text: &str) -> Timestamp {
+fn time(text: &str) -> Timestamp {
     text.parse().unwrap()
 }
 
-fn since() -> Timestamp {
-    at("2026-08-12T01:02:03Z")
+fn start() -> Timestamp {
+    time("2026-08-12T01:02:03Z")
 }
 
 fn mark(debts: &Debts, unit: &Unit, session: u64) {
-    debts.mark(unit, session, Mark { since: Some(since()), tried: None });
+    debts.mark(unit, session, Mark { start: Some(start()), tried: None });
 }
 
 fn names(folder: &Path) -> Vec<String> {
@@ -34,7 +34,7 @@ fn a_mark_outlives_the_program_until_it_is_taken_away() {
     let debts = || Debts::marked_in(Some(folder.path().join("marks")));
     mark(&debts(), &one, 1);
     let next = debts();
-    assert_eq!(next.marked(&one), Some(Mark { since: Some(since()), tried: None }));
+    assert_eq!(next.marked(&one), Some(Mark { start: Some(start()), tried: None }));
     assert_eq!(next.left_moving(), std::slice::from_ref(&one));
     assert_eq!(next.marked(&other), None, "another address");
     next.unmark(&one, 1);
@@ -73,7 +73,7 @@ fn killed_at_any_step_of_a_write_or_removal_the_next_start_knows_old_or_new() {
     // Only the names distinguish the files of the other promises.
     let debts = || Debts::marked_in(Some(folder.path().to_owned()));
     fs::write(&temporary, text).unwrap();
-    debts().mark_auto_track_off(&one, since()).unwrap();
+    debts().mark_auto_track_off(&one, start()).unwrap();
     assert_eq!((debts().with_auto_track(), debts().left_moving()), (vec![one], Vec::new()));
 }
 
@@ -101,10 +101,10 @@ fn files_of_an_earlier_version_mean_the_same() {
         let dish = Unit::new(&Antenna::satrak("Dish", "DISH.local:4001"));
         assert_eq!(dish, unit("dish.local:4001"));
         assert_eq!(debts.left_moving(), std::slice::from_ref(&dish));
-        assert_eq!(debts.marked(&dish), Some(Mark { since: Some(since()), tried: None }));
+        assert_eq!(debts.marked(&dish), Some(Mark { start: Some(start()), tried: None }));
         assert_eq!(debts.with_auto_track(), [unit("mast.local:4001")]);
         let shifted = debts.shifted(&unit("horn.local:4001")).unwrap();
-        assert_eq!((shifted.since, shifted.track, shifted.is_found), (since(), None, true));
+        assert_eq!((shifted.start, shifted.track, shifted.is_found), (start(), None, true));
         let [before, put] = [shifted.before, *shifted.put.last().unwrap()];
         assert_eq!((before.azimuth().degrees(), before.elevation().degrees()), (0.25, -0.1));
         assert_eq!((put.azimuth().degrees(), put.elevation().degrees()), (0.45, 0.0));
@@ -121,9 +121,9 @@ fn files_of_an_earlier_version_mean_the_same() {
 #[test]
 fn a_mark_has_the_form_of_earlier_versions() {
     let folder = tempfile::tempdir().unwrap();
-    let (one, tried) = (unit("a:1"), at("2026-08-12T02:02:03Z"));
+    let (one, tried) = (unit("a:1"), time("2026-08-12T02:02:03Z"));
     let debts = Debts::marked_in(Some(folder.path().to_owned()));
-    debts.mark(&one, 1, Mark { since: Some(since()), tried: Some(tried) });
+    debts.mark(&one, 1, Mark { start: Some(start()), tried: Some(tried) });
     let text = fs::read_to_string(folder.path().join("satrak-a-1-f938eb55.toml"));
     assert_eq!(
         text.unwrap(),
@@ -135,12 +135,12 @@ fn a_mark_has_the_form_of_earlier_versions() {
 #[test]
 fn the_age_of_a_mark_counts_from_the_last_try() {
     let folder = tempfile::tempdir().unwrap();
-    let (one, tried) = (unit("a:1"), at("2026-08-12T02:02:03Z"));
+    let (one, tried) = (unit("a:1"), time("2026-08-12T02:02:03Z"));
     let debts = Debts::marked_in(Some(folder.path().to_owned()));
-    debts.mark(&one, 1, Mark { since: Some(since()), tried: Some(tried) });
+    debts.mark(&one, 1, Mark { start: Some(start()), tried: Some(tried) });
     let marked = Debts::marked_in(Some(folder.path().to_owned())).marked(&one).unwrap();
-    assert_eq!((marked.since, marked.last_tried()), (Some(since()), Some(tried)));
-    assert_eq!(Mark { since: Some(since()), tried: None }.last_tried(), Some(since()));
+    assert_eq!((marked.start, marked.last_tried()), (Some(start()), Some(tried)));
+    assert_eq!(Mark { start: Some(start()), tried: None }.last_tried(), Some(start()));
 }
 
 #[test]
@@ -148,7 +148,7 @@ fn a_mark_that_cannot_be_read_still_warns() {
     let folder = tempfile::tempdir().unwrap();
     let debts = Debts::marked_in(Some(folder.path().to_owned()));
     fs::write(folder.path().join(file_name(&unit("a:1"), STOP)), "since = ").unwrap();
-    assert_eq!(debts.marked(&unit("a:1")).unwrap().since, None);
+    assert_eq!(debts.marked(&unit("a:1")).unwrap().start, None);
 }
 
 #[test]
@@ -230,12 +230,12 @@ fn a_record_of_auto_track_that_cannot_be_read_stays() {
 fn that_a_unit_is_not_known_to_stand_outlives_its_session() {
     let (debts, unit) = (Debts::default(), unit("a:1"));
     let first = debts.begin(&unit, Arc::default());
-    let since = Instant::now();
-    debts.keep_unproved(&unit, first, Some(since));
+    let start = Instant::now();
+    debts.keep_unproved(&unit, first, Some(start));
     let second = debts.begin(&unit, Arc::default());
-    assert_eq!(debts.unproved_since(&unit), Some(since));
+    assert_eq!(debts.unproved_since(&unit), Some(start));
     debts.keep_unproved(&unit, first, None);
-    assert_eq!(debts.unproved_since(&unit), Some(since), "the older one knows no better");
+    assert_eq!(debts.unproved_since(&unit), Some(start), "the older one knows no better");
     debts.keep_unproved(&unit, second, None);
     assert_eq!(debts.unproved_since(&unit), None);
 }

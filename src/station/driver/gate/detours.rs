@@ -50,7 +50,7 @@ pub(in crate::driver) struct DetourQuestion {
     limits: AxisLimits,
     from_deg: [f64; 2],
     to_deg: [f64; 2],
-    asked: Moment,
+    time: Moment,
 }
 
 /// Places of a detour without its start; empty if no detour exists.
@@ -63,8 +63,8 @@ pub(in crate::driver) struct Detour {
 impl DetourQuestion {
     /// Searches for the detour; takes up to a tenth of a second.
     pub(in crate::driver) fn search(self) -> Detour {
-        let Self { from_deg, to_deg, asked, .. } = self;
-        let now = self.bounds.at_time(asked.utc);
+        let Self { from_deg, to_deg, time, .. } = self;
+        let now = self.bounds.at_time(time.utc);
         let turns = detour::route(&now, &self.limits, from_deg, to_deg);
         let places_deg = detour::in_steps(&turns.unwrap_or_default(), STEP_DEG);
         Detour { question: self, places_deg }
@@ -73,7 +73,7 @@ impl DetourQuestion {
     /// Returns `true` if the answer to this question also answers `other`, a later question.
     fn covers(&self, other: &Self) -> bool {
         let mut ends = self.to_deg.into_iter().zip(other.to_deg);
-        other.asked.steady.saturating_duration_since(self.asked.steady) < FRESH
+        other.time.steady.saturating_duration_since(self.time.steady) < FRESH
             && ends.all(|(one_deg, other_deg)| (one_deg - other_deg).abs() <= SAME_END_DEG)
             // A new keep-out could lie across the detour.
             && self.bounds == other.bounds
@@ -91,7 +91,7 @@ impl Gate {
         // Only a track follows a detour, and a permission may let it lead to the Sun.
         let bounds = self.bounds_in(Intent::Track).clone();
         let limits = self.axis_limits();
-        let question = DetourQuestion { bounds, limits, from_deg, to_deg, asked: now };
+        let question = DetourQuestion { bounds, limits, from_deg, to_deg, time: now };
         match &self.detour {
             Some(detour) if detour.question.covers(&question) => Ok(&detour.places_deg),
             Some(_) | None => Err(NoRoute::Open(Box::new(question))),

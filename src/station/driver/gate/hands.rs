@@ -194,9 +194,9 @@ impl Gate {
         let measured = self.state().measured?;
         let reading = |axis: Axis| {
             let angle_deg = axis.angle_deg.filter(|deg| deg.is_finite())?;
-            let Measured { requested: asked, received, .. } = measured;
+            let Measured { requested, received, .. } = measured;
             let Axis { motion, drive, .. } = axis;
-            Some(AxisReading { angle_deg, motion, drive, asked, received })
+            Some(AxisReading { angle_deg, motion, drive, requested, received })
         };
         let [first, second] = measured.axes.map(reading);
         Some([first, second.filter(|_| self.variant.capabilities.has_elevation())])
@@ -213,7 +213,7 @@ impl Gate {
             return false;
         };
         let [_, upper_deg] = axes_deg;
-        let off = self.mount.direction(axes_deg).separation(direction);
-        off.degrees() <= FITS_DEG && (upper_deg - 90.0).abs() <= STEEP_DEG
+        let deviation = self.mount.direction(axes_deg).separation(direction);
+        deviation.degrees() <= FITS_DEG && (upper_deg - 90.0).abs() <= STEEP_DEG
     }
 }

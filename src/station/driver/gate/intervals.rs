@@ -26,12 +26,12 @@ pub(in crate::driver) struct Interval {
 }
 
 impl Interval {
-    fn at(deg: f64) -> Self {
+    fn from_angle(deg: f64) -> Self {
         Self { from_deg: deg, to_deg: deg, is_known: true }
     }
 
-    /// Restricts the range `ahead` to the angles that this axis can reach.
-    fn within(self, (from_deg, to_deg): (f64, f64), travel_deg: (f64, f64)) -> (f64, f64) {
+    /// Restricts a range to the angles that this axis can reach.
+    fn restrict(self, (from_deg, to_deg): (f64, f64), travel_deg: (f64, f64)) -> (f64, f64) {
         if self.is_known {
             return (from_deg, to_deg);
         }
@@ -74,7 +74,10 @@ impl Intervals {
         let [first, second] = self.0;
         let [first_ahead, second_ahead] = ahead;
         let [first_travel, second_travel] = travel_deg;
-        Sweep([first.within(first_ahead, first_travel), second.within(second_ahead, second_travel)])
+        Sweep([
+            first.restrict(first_ahead, first_travel),
+            second.restrict(second_ahead, second_travel),
+        ])
     }
 
     /// Returns the first axis without a known angle.
@@ -91,7 +94,7 @@ impl Intervals {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct LastAngle {
     deg: f64,
-    asked: Instant,
+    requested: Instant,
     /// Time of the first limit switch report after the angle.
     at_limit: Option<Instant>,
 }
@@ -103,14 +106,14 @@ pub(super) struct LastAngles([Option<LastAngle>; 2]);
 impl LastAngles {
     fn take(&mut self, measured: &Measured) {
         for (last, axis) in self.0.iter_mut().zip(measured.axes) {
-            let asked = measured.requested;
+            let requested = measured.requested;
             if let Some(deg) = angle_deg(axis) {
-                *last = Some(LastAngle { deg, asked, at_limit: None });
+                *last = Some(LastAngle { deg, requested, at_limit: None });
             } else if let Some(last) = last.as_mut().filter(|_| axis.plus_limit != axis.minus_limit)
             {
                 // The axis had already reached the switch: later readings do not extend its travel
                 // time.
-                last.at_limit.get_or_insert(asked);
+                last.at_limit.get_or_insert(requested);
             }
         }
     }
@@ -161,31 +164,34 @@ impl Gate {
         // time.
         let bridged =
             axes.filter(|(axis, _)| angle_deg(*axis).is_none()).filter_map(|(_, last)| {
-                last.map(|last| last.asked).filter(|asked| is_bridged(*asked, measured.requested))
+                last.map(|last| last.requested)
+                    .filter(|requested| is_bridged(*requested, measured.requested))
             });
         bridged.chain([measured.requested]).min()
     }
 }
 
-/// Returns the interval of an axis. `asked` is the request time of its reading.
+/// Returns the interval of an axis. `requested` is the request time of its reading.
 fn interval(
     axis: Axis,
     travel_deg: (f64, f64),
     last: Option<LastAngle>,
-    asked: Instant,
+    requested: Instant,
     rate_deg_s: f64,
 ) -> Interval {
     if let Some(deg) = angle_deg(axis) {
-        return Interval::at(deg);
+        return Interval::from_angle(deg);
     }
     match (axis.minus_limit, axis.plus_limit, last) {
         // An RC2000C reports no angle of an axis at its limit switch.
-        (true, false, last) => at_limit(travel_deg.0, last, asked, rate_deg_s),
-        (false, true, last) => at_limit(travel_deg.1, last, asked, rate_deg_s),
+        (true, false, last) => at_limit(travel_deg.0, last, requested, rate_deg_s),
+        (false, true, last) => at_limit(travel_deg.1, last, requested, rate_deg_s),
         // Two active switches contradict each other, so neither locates the axis.
-        (_, _, Some(last)) if is_bridged(last.asked, asked) => Interval::at(last.deg),
+        (_, _, Some(last)) if is_bridged(last.requested, requested) => {
+            Interval::from_angle(last.deg)
+        }
         (_, _, Some(last)) => {
-            let elapsed = asked.saturating_duration_since(last.asked);
+            let elapsed = requested.saturating_duration_since(last.requested);
             Interval::widened(last, elapsed, rate_deg_s, travel_deg)
         }
         (_, _, None) => {
@@ -197,18 +203,23 @@ fn interval(
 
 /// Returns the interval of an axis at the limit switch at an end of its travel. If the axis cannot
 /// have reached that end since its last angle, the interval covers all angles between the two.
-fn at_limit(end_deg: f64, last: Option<LastAngle>, asked: Instant, rate_deg_s: f64) -> Interval {
-    let Some(last) = last else { return Interval::at(end_deg) };
-    let elapsed = last.at_limit.unwrap_or(asked).saturating_duration_since(last.asked);
+fn at_limit(
+    end_deg: f64,
+    last: Option<LastAngle>,
+    requested: Instant,
+    rate_deg_s: f64,
+) -> Interval {
+    let Some(last) = last else { return Interval::from_angle(end_deg) };
+    let elapsed = last.at_limit.unwrap_or(requested).saturating_duration_since(last.requested);
     let reached_deg = rate_deg_s * elapsed.as_secs_f64() + AT_LIMIT_DEG;
     if (end_deg - last.deg).abs() <= reached_deg {
-        return Interval::at(end_deg);
+        return Interval::from_angle(end_deg);
     }
     Interval { from_deg: end_deg.min(last.deg), to_deg: end_deg.max(last.deg), is_known: false }
 }
 
-fn is_bridged(last: Instant, asked: Instant) -> bool {
-    asked.saturating_duration_since(last) < MAX_ANGLE_GAP
+fn is_bridged(last: Instant, requested: Instant) -> bool {
+    requested.saturating_duration_since(last) < MAX_ANGLE_GAP
 }
 
 fn angle_deg(axis: Axis) -> Option<f64> {
@@ -227,9 +238,9 @@ mod tests {
     /// Returns the interval, in degrees, of an axis with a travel from -5 to 100 degrees and a rate
     /// up to 2 degrees a second. The axis stood at 10 degrees `seconds` ago.
     fn after(seconds: u64, axis: Axis) -> (f64, f64, bool) {
-        let asked = Instant::now();
-        let now = asked + Duration::from_secs(seconds);
-        let last = Some(LastAngle { deg: 10.0, asked, at_limit: None });
+        let requested = Instant::now();
+        let now = requested + Duration::from_secs(seconds);
+        let last = Some(LastAngle { deg: 10.0, requested, at_limit: None });
         let Interval { from_deg, to_deg, is_known } = interval(axis, (-5.0, 100.0), last, now, 2.0);
         (from_deg, to_deg, is_known)
     }

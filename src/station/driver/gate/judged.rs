@@ -81,15 +81,15 @@ impl Gate {
         &mut self,
         judgements: Vec<(PathQuestion, Result<(), NotClear>)>,
     ) {
-        let Judged(kept) = &mut self.judged;
-        kept.extend(judgements);
+        let Judged(verdicts) = &mut self.judged;
+        verdicts.extend(judgements);
         // A unit whose reports keep changing must not fill the memory.
-        kept.drain(..kept.len().saturating_sub(MAX_KEPT));
+        verdicts.drain(..verdicts.len().saturating_sub(MAX_KEPT));
     }
 
     fn verdict(&self, question: &PathQuestion) -> Option<&Result<(), NotClear>> {
-        let Judged(kept) = &self.judged;
-        let fitting = kept.iter().rev().find(|(judged, _)| judged.covers(question));
+        let Judged(verdicts) = &self.judged;
+        let fitting = verdicts.iter().rev().find(|(judged, _)| judged.covers(question));
         fitting.map(|(_, verdict)| verdict)
     }
 

@@ -15,7 +15,7 @@ use crate::{
 /// Directions of a program track with some offsets at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::driver) struct Demand {
-    pub(in crate::driver) at: Timestamp,
+    pub(in crate::driver) time: Timestamp,
     /// Direction of the axes with all offsets.
     pub(in crate::driver) axes: AzEl,
     /// Direction on the sky, if the axis offsets and the pointing model correct errors of the
@@ -40,9 +40,9 @@ impl Gate {
     /// Returns `true` if the antenna can point in this direction.
     pub(in crate::driver) fn reaches(&self, direction: AzEl, now: Moment) -> bool {
         let AzEl { azimuth, elevation } = direction;
-        let to = Motion::Position { azimuth: Some(azimuth), elevation: Some(elevation) };
+        let motion = Motion::Position { azimuth: Some(azimuth), elevation: Some(elevation) };
         let situation = self.situation(Intent::Track, false, now);
-        self.nearest(to).is_ok_and(|to| rules::within_reach(&to, &situation).is_ok())
+        self.nearest(motion).is_ok_and(|motion| rules::within_reach(&motion, &situation).is_ok())
     }
 
     pub(in crate::driver) fn set_to_sky(&mut self, to_sky: Option<DQuat>) {
@@ -56,9 +56,9 @@ impl Gate {
         demand: Demand,
         now: Moment,
     ) -> Result<(), Refusal> {
-        let Demand { at, axes, sky, plain } = demand;
+        let Demand { time, axes, sky, plain } = demand;
         // The demand contains both directions.
-        let bounds = self.bounds_in(Intent::Track).at_time(at).without_model();
+        let bounds = self.bounds_in(Intent::Track).at_time(time).without_model();
         for direction in [axes, sky] {
             if let Some(barrier) = bounds.forbids(direction) {
                 return Err(Refusal::Forbidden { barrier, direction });
@@ -74,8 +74,9 @@ impl Gate {
         let Mount::AzEl { elevation_from_deg, .. } = self.mount else {
             // The axes wait at the minimum elevation if a pass begins below it.
             let elevation = Angle::from_degrees(axes.elevation_deg().max(lowest_deg));
-            let to = Motion::Position { azimuth: Some(axes.azimuth), elevation: Some(elevation) };
-            return rules::within_reach(&to, &self.situation(Intent::Track, false, now));
+            let motion =
+                Motion::Position { azimuth: Some(axes.azimuth), elevation: Some(elevation) };
+            return rules::within_reach(&motion, &self.situation(Intent::Track, false, now));
         };
         let mount = self.mount.clipped(self.state().travel_deg);
         let wanted_deg = if has_elevation { axes.elevation_deg() } else { elevation_from_deg };
@@ -84,12 +85,12 @@ impl Gate {
             return Ok(());
         }
         let asked_deg = [mount.axis_azimuth(axes.azimuth, None).degrees(), elevation.degrees()];
-        let each = asked_deg.into_iter().zip(mount.travel_deg());
-        let mut each = each.zip(self.variant.capabilities.axes);
+        let angles = asked_deg.into_iter().zip(mount.travel_deg());
+        let mut angles = angles.zip(self.variant.capabilities.axes);
         let is_out = |((asked_deg, (from_deg, to_deg)), _): &((f64, (f64, f64)), _)| {
             !(*from_deg..=*to_deg).contains(asked_deg)
         };
-        each.find(is_out).map_or(Ok(()), |((asked_deg, (from_deg, to_deg)), axis)| {
+        angles.find(is_out).map_or(Ok(()), |((asked_deg, (from_deg, to_deg)), axis)| {
             Err(Refusal::Travel { axis, asked_deg, from_deg, to_deg })
         })
     }

@@ -10,24 +10,26 @@ use crate::{
 const STEP_DEG: f64 = 2.0;
 
 impl Gate {
-    /// Returns the path of a motion to `to` from the current position, or the reason to refuse it.
-    pub(in crate::driver) fn way_to(&self, to: Pointing, now: Moment) -> Result<Way, Refusal> {
-        let Pointing { azimuth, elevation } = to;
+    /// Returns the path of a motion to `target` from the current position, or the reason to refuse
+    /// it.
+    pub(in crate::driver) fn way_to(&self, target: Pointing, now: Moment) -> Result<Way, Refusal> {
+        let Pointing { azimuth, elevation } = target;
         let motion = self.nearest(Motion::Position { azimuth, elevation })?;
         let route = self.route(motion, Intent::Position, now).map_err(NoRoute::refusal)?;
-        let is_round_a_corner = route.then.is_some();
-        let legs = std::iter::once(route.first).chain(route.then);
+        let is_round_a_corner = route.second.is_some();
+        let legs = std::iter::once(route.first).chain(route.second);
         let ends: Option<Vec<_>> = legs.map(|leg| self.ends(leg, now)).collect();
         let Some(ends) = ends.filter(|ends| !ends.is_empty()) else {
             let arrives_s = self.seconds_of_one_axis(motion);
             return Ok(Way { path: Vec::new(), arrives_s, is_round_a_corner });
         };
         let start = ends.iter().take(1).map(|(from_deg, _)| *from_deg);
-        let turns_deg: Vec<[f64; 2]> = start.chain(ends.iter().map(|(_, to)| *to)).collect();
+        let turns_deg: Vec<[f64; 2]> =
+            start.chain(ends.iter().map(|(_, to_deg)| *to_deg)).collect();
         let limits = self.axis_limits();
         let legs = turns_deg.windows(2).filter_map(|pair| <&[[f64; 2]; 2]>::try_from(pair).ok());
-        let arrives_s = legs.clone().map(|[from, to]| limits.seconds(*from, *to)).sum();
-        let points = legs.flat_map(|[from, to]| turning(*from, *to));
+        let arrives_s = legs.clone().map(|[start, end]| limits.seconds(*start, *end)).sum();
+        let points = legs.flat_map(|[start, end]| turning(*start, *end));
         let path = points.map(|axes_deg| self.bounds.direction(axes_deg)).collect();
         Ok(Way { path, arrives_s: Some(arrives_s), is_round_a_corner })
     }

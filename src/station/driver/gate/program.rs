@@ -78,8 +78,8 @@ impl Gate {
         let lowest = Angle::from_degrees(self.limits.minimum_elevation_deg);
         // A pass may begin below the minimum elevation, where the gate sends no antenna.
         let elevation = if start.elevation < lowest { lowest } else { start.elevation };
-        let to = Motion::Position { azimuth: Some(start.azimuth), elevation: Some(elevation) };
-        let nearest = self.nearest(to).map_err(|_| refusal.clone())?;
+        let motion = Motion::Position { azimuth: Some(start.azimuth), elevation: Some(elevation) };
+        let nearest = self.nearest(motion).map_err(|_| refusal.clone())?;
         self.route(nearest, Intent::Track, now).map_err(|no_route| match no_route {
             NoRoute::Refused(_) => refusal.into(),
             open @ NoRoute::Open(_) => open,
@@ -87,7 +87,7 @@ impl Gate {
         // Only the unit's own path to the start was blocked, not the pass. The rule checks that
         // path again at the start.
         self.program = Some(Arc::clone(judge));
-        Ok(Some(to))
+        Ok(Some(motion))
     }
 
     /// Checks whether the whole path of the unit's program keeps to the bounds, with the unit's

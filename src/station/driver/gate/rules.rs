@@ -92,12 +92,12 @@ fn something_is_asked_for(motion: &Motion, _: &Situation<'_>) -> Result<(), Refu
 /// Requires readable safety settings. Only the operator can answer for unknown bounds, and only for
 /// a manual motion.
 fn safety_settings_are_read(
-    asked: &MotionRequest,
+    request: &MotionRequest,
     situation: &Situation<'_>,
 ) -> Result<(), Refusal> {
     let Some(place) = situation.bounds.unread() else { return Ok(()) };
     let refusal = Refusal::SettingsUnread { place: place.clone() };
-    let rates_deg_s = match *asked {
+    let rates_deg_s = match *request {
         MotionRequest::Motion(Motion::Jog { x_deg_s, y_deg_s }) => {
             Some(situation.turning([x_deg_s, y_deg_s]))
         }
@@ -129,18 +129,18 @@ fn controller_offers_it(motion: &Motion, situation: &Situation<'_>) -> Result<()
     if offered { Ok(()) } else { Err(Refusal::NotOffered) }
 }
 
-fn position_is_fresh(asked: &MotionRequest, situation: &Situation<'_>) -> Result<(), Refusal> {
+fn position_is_fresh(request: &MotionRequest, situation: &Situation<'_>) -> Result<(), Refusal> {
     // The window locks its controls with the same function, so both agree.
-    position_for(asked, situation.state, situation.now.steady).map(drop)
+    position_for(request, situation.state, situation.now.steady).map(drop)
 }
 
 fn no_stop_under_way(_: &MotionRequest, situation: &Situation<'_>) -> Result<(), Refusal> {
     if situation.stopping { Err(Refusal::Stopping) } else { Ok(()) }
 }
 
-fn intent_allows_it(asked: &MotionRequest, situation: &Situation<'_>) -> Result<(), Refusal> {
+fn intent_allows_it(request: &MotionRequest, situation: &Situation<'_>) -> Result<(), Refusal> {
     let intent = situation.intent;
-    let allowed = match asked {
+    let allowed = match request {
         MotionRequest::Motion(Motion::Jog { .. } | Motion::Step { .. }) => intent == Intent::Manual,
         MotionRequest::Motion(Motion::Position { .. }) => {
             matches!(intent, Intent::Position | Intent::Park | Intent::Track)
@@ -172,11 +172,11 @@ fn no_limit_switch_in_that_direction(
         return Ok(());
     };
     let measured = situation.state.measured.ok_or(Refusal::PositionUnknown)?;
-    for ((asked, axis), name) in [x, y].into_iter().zip(measured.axes).zip(situation.can.axes) {
-        if asked > 0.0 && axis.plus_limit {
+    for ((turn, axis), name) in [x, y].into_iter().zip(measured.axes).zip(situation.can.axes) {
+        if turn > 0.0 && axis.plus_limit {
             return Err(Refusal::Limit { axis: name, plus: true });
         }
-        if asked < 0.0 && axis.minus_limit {
+        if turn < 0.0 && axis.minus_limit {
             return Err(Refusal::Limit { axis: name, plus: false });
         }
     }
@@ -213,8 +213,8 @@ fn no_blind_jog(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusa
         return Ok(());
     };
     let Intervals(axes) = situation.intervals.ok_or(Refusal::PositionUnknown)?;
-    for ((asked, axis), name) in [x, y].into_iter().zip(axes).zip(situation.can.axes) {
-        if asked != 0.0 && !axis.is_known && !situation.can.ends_jogs {
+    for ((turn, axis), name) in [x, y].into_iter().zip(axes).zip(situation.can.axes) {
+        if turn != 0.0 && !axis.is_known && !situation.can.ends_jogs {
             return Err(Refusal::AngleUnknown { axis: name });
         }
     }
@@ -253,10 +253,10 @@ fn within_travel(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refus
 pub(super) fn within_reach(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
     let Motion::Position { azimuth, elevation } = *motion else { return Ok(()) };
     let lowest_deg = situation.limits.minimum_elevation_deg;
-    if let Some(asked) = elevation {
-        let is_over = situation.mount.can_flip() && asked.degrees() > 90.0;
+    if let Some(elevation) = elevation {
+        let is_over = situation.mount.can_flip() && elevation.degrees() > 90.0;
         // Beyond the zenith, use the elevation on the other side.
-        let asked_deg = if is_over { 180.0 - asked.degrees() } else { asked.degrees() };
+        let asked_deg = if is_over { 180.0 - elevation.degrees() } else { elevation.degrees() };
         // Angles come from decimal degrees: allow for rounding.
         if asked_deg < lowest_deg - 1e-9 || asked_deg > 90.0 + 1e-9 {
             return Err(Refusal::Elevation { asked_deg, lowest_deg });
@@ -304,8 +304,8 @@ fn auto_track_is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(),
     situation.gate.next_pass_is_clear(situation.now)
 }
 
-fn controller_agrees(asked: &MotionRequest, situation: &Situation<'_>) -> Result<(), Refusal> {
-    let objection = situation.gate.controller.objection(asked, situation.now);
+fn controller_agrees(request: &MotionRequest, situation: &Situation<'_>) -> Result<(), Refusal> {
+    let objection = situation.gate.controller.objection(request, situation.now);
     objection.map_or(Ok(()), |reason| Err(Refusal::Controller(reason)))
 }
 

@@ -92,8 +92,8 @@ impl Gate {
         let group = self.variant.groups.iter().find(|group| group.key == change.group);
         let field = group.and_then(|group| group.moving_field(&change.values));
         let look_for_hindrance = || {
-            let asked = self.situation(Intent::Standby, stopping, now);
-            let situation = Situation { may_move, ..asked };
+            let situation = self.situation(Intent::Standby, stopping, now);
+            let situation = Situation { may_move, ..situation };
             self.rules.iter().find_map(|rule| match rule.check {
                 Check::Setting(check) => check(&situation),
                 _ => None,

@@ -35,7 +35,7 @@ struct Metal {
 }
 
 impl Metal {
-    fn of(case: &Case, started: Arc<Mutex<Vec<Motion>>>) -> Self {
+    fn new(case: &Case, started: Arc<Mutex<Vec<Motion>>>) -> Self {
         Self {
             state: case.state.clone(),
             started,
@@ -93,10 +93,10 @@ impl Controller for Metal {
 static PROGRAM: LazyLock<Arc<Judge>> = LazyLock::new(|| {
     let catalog = crate::orbit::bundled().unwrap();
     let elements = catalog.get(25_544).unwrap().clone();
-    let (site, from) = (Site::default(), "2026-08-12T00:00:00Z".parse().unwrap());
+    let (site, start) = (Site::default(), "2026-08-12T00:00:00Z".parse().unwrap());
     let aos_elevation = Angle::from_degrees(10.0);
     let search =
-        PassSearch { aos_elevation, ..PassSearch::new(site, from, add_seconds(from, 86_400.0)) };
+        PassSearch { aos_elevation, ..PassSearch::new(site, start, add_seconds(start, 86_400.0)) };
     let propagator = Propagator::new(&elements).unwrap();
     let pass = passes(&propagator, &search, &|| false)[0];
     let target = TrackTarget {
@@ -122,7 +122,7 @@ struct Case {
     /// `true` if the unit's program starts on [`PROGRAM`].
     pass_is_known: bool,
     /// Pass that the unit would track on its own.
-    held: NextPass,
+    next_pass: NextPass,
     lock_out: Option<LockOut>,
     /// Objection of the controller to any motion.
     objection: Option<&'static str>,
@@ -161,7 +161,7 @@ impl Case {
             keep_outs: Vec::new(),
             unread: Vec::new(),
             pass_is_known: true,
-            held: NextPass::Nothing,
+            next_pass: NextPass::Nothing,
             lock_out: None,
             objection: None,
             leads_to: Lead::Nowhere,
@@ -189,7 +189,7 @@ impl Case {
     }
 
     fn gate(&self, started: &Arc<Mutex<Vec<Motion>>>) -> Gate {
-        let metal = Metal::of(self, Arc::clone(started));
+        let metal = Metal::new(self, Arc::clone(started));
         let station = Station {
             keep_outs: self.keep_outs.clone(),
             unread: self.unread.clone(),
@@ -197,7 +197,7 @@ impl Case {
         };
         let bounds = Bounds::new(&station, &self.antenna);
         let mut gate = Gate::new(Box::new(metal), &self.antenna, bounds, &Default::default());
-        gate.next_pass = self.held.clone();
+        gate.next_pass = self.next_pass.clone();
         gate.program = self.pass_is_known.then(|| Arc::clone(&PROGRAM));
         gate.set_lock_out(self.lock_out.clone());
         judge(&mut gate);
@@ -323,15 +323,15 @@ fn each_motion_belongs_to_its_intents() {
         (Motion::EnableAuto, &all),
     ] {
         for intent in all {
-            let wanted =
+            let expected =
                 if allowed.contains(&intent) { Ok(()) } else { Err(Refusal::Intent(intent)) };
-            assert_eq!(Case::new(intent).ask(motion), wanted, "{motion:?}");
+            assert_eq!(Case::new(intent).ask(motion), expected, "{motion:?}");
         }
     }
     for intent in all {
         let allowed = matches!(intent, Manual | Position);
-        let wanted = if allowed { Ok(()) } else { Err(Refusal::Intent(intent)) };
-        assert_eq!(makes::rc2000c(intent).act("to_counts"), wanted, "{intent:?}");
+        let expected = if allowed { Ok(()) } else { Err(Refusal::Intent(intent)) };
+        assert_eq!(makes::rc2000c(intent).act("to_counts"), expected, "{intent:?}");
     }
 }
 
@@ -357,14 +357,14 @@ fn a_limit_switch_blocks_its_direction_only() {
             case.axes()[axis].plus_limit = plus;
             case.axes()[axis].minus_limit = !plus;
             let along = |sign: f64| if axis == 0 { [sign, 0.0] } else { [0.0, sign] };
-            let into = along(if plus { 1.0 } else { -1.0 });
-            let out = into.map(|rate| -rate);
+            let inward = along(if plus { 1.0 } else { -1.0 });
+            let outward = inward.map(|rate| -rate);
             let refused = Err(Refusal::Limit { axis: name, plus });
-            assert_eq!(case.ask(jog(into[0], into[1])), refused);
-            assert_eq!(case.ask(step(into[0], into[1])), refused);
-            assert_eq!(case.ask(jog(out[0], out[1])), Ok(()));
-            assert_eq!(case.ask(step(out[0], out[1])), Ok(()));
-            assert_eq!(case.ask(jog(into[1], into[0])), Ok(()), "the other axis is free");
+            assert_eq!(case.ask(jog(inward[0], inward[1])), refused);
+            assert_eq!(case.ask(step(inward[0], inward[1])), refused);
+            assert_eq!(case.ask(jog(outward[0], outward[1])), Ok(()));
+            assert_eq!(case.ask(step(outward[0], outward[1])), Ok(()));
+            assert_eq!(case.ask(jog(inward[1], inward[0])), Ok(()), "the other axis is free");
         }
     }
 }
@@ -448,7 +448,7 @@ fn an_azimuth_beyond_the_sky_is_meant_as_the_axis_counts() {
     if let Mount::AzEl { azimuth_to_deg, .. } = &mut mount {
         *azimuth_to_deg = 450.0;
     }
-    let metal = Metal::of(&case, Arc::default());
+    let metal = Metal::new(&case, Arc::default());
     let gate = Gate::new(
         Box::new(metal),
         &case.antenna,
@@ -477,8 +477,8 @@ fn while_a_safety_setting_is_unread_only_slow_motion_by_hand_is_permitted() {
         let mut gate = case.gate(&Arc::default());
         gate.let_out(Some(case.now().steady + Duration::from_mins(1)));
         let by_hand = intent == Intent::Manual;
-        let wanted = if by_hand { Ok(()) } else { Err(unread.clone()) };
-        assert_eq!(gate.check(motion, intent, case.now()), wanted, "{motion:?}");
+        let expected = if by_hand { Ok(()) } else { Err(unread.clone()) };
+        assert_eq!(gate.check(motion, intent, case.now()), expected, "{motion:?}");
     }
     let case = each_rule::unread(Case::new(Intent::Manual));
     let mut gate = case.gate(&Arc::default());

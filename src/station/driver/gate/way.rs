@@ -28,7 +28,7 @@ const FIRST_PLACES: usize = 6;
 pub(in crate::driver) struct Route {
     pub(in crate::driver) first: Motion,
     /// Second motion, after the first has arrived, if the path goes round a corner.
-    pub(in crate::driver) then: Option<Motion>,
+    pub(in crate::driver) second: Option<Motion>,
 }
 
 /// Refuses a motion that may lead into a barrier.
@@ -152,12 +152,12 @@ fn by_hand(
         return by_hand_unseen(intervals, ahead_deg, rates_deg_s, situation);
     }
     let clearances = bounds_now.min_clearances(start);
-    let inside = clearances.iter().find(|clearance| {
+    let violation = clearances.iter().find(|clearance| {
         !clearance.warns_only
             && clearance.barrier != Barrier::MinimumElevation
             && clearance.angle < Angle::ZERO
     });
-    let Some(inside) = inside else {
+    let Some(violation) = violation else {
         return blocked(sweep, start, &bounds_now);
     };
     // The permission to leave one barrier does not cover another barrier.
@@ -170,10 +170,10 @@ fn by_hand(
         is_left_by_azimuth(start, ahead_deg, &bounds_now)
     };
     if !is_left {
-        let at = situation.bounds.direction(sweep.middle());
-        return Err(Refusal::Forbidden { barrier: inside.barrier.clone(), direction: at });
+        let direction = situation.bounds.direction(sweep.middle());
+        return Err(Refusal::Forbidden { barrier: violation.barrier.clone(), direction });
     }
-    slowly_by_permission(rates_deg_s, Refusal::Inside(inside.barrier.clone()), situation)
+    slowly_by_permission(rates_deg_s, Refusal::Inside(violation.barrier.clone()), situation)
 }
 
 /// Returns `true` if a motion of both axes from `start` leads out of barriers and nowhere deeper.
@@ -183,14 +183,14 @@ fn is_left_on_the_way(start: Sweep, ahead_deg: [f64; 2], bounds: &BoundsAt<'_>) 
     let mut was_out = false;
     (1..=looks).all(|look| {
         let share = f64::from(look) / f64::from(looks);
-        let there = Depth::new(bounds, start.turned(ahead_deg.map(|deg| deg * share)));
+        let depth = Depth::new(bounds, start.turned(ahead_deg.map(|deg| deg * share)));
         // Before its end, the path may follow an edge, or pass a point from which the way out is
         // shorter.
         let gain_deg = if look == looks { OUT_GAIN_DEG } else { -OUT_GAIN_DEG };
         // A gap between two barriers is no way out if the motion continues into the second.
-        let enters_again = was_out && !there.is_out();
-        was_out = there.is_out();
-        !enters_again && here.is_left_for(&there, gain_deg)
+        let enters_again = was_out && !depth.is_out();
+        was_out = depth.is_out();
+        !enters_again && here.is_left_for(&depth, gain_deg)
     })
 }
 
@@ -200,8 +200,8 @@ fn is_left_by_azimuth(start: Sweep, [ahead_deg, _]: [f64; 2], bounds: &BoundsAt<
     let Some(out) = out_deg(ahead_deg) else { return false };
     let is_shorter = out_deg(-ahead_deg).is_none_or(|other| out <= other);
     let past_the_edge = |deg: f64| start.turned([deg.copysign(ahead_deg), 0.0]);
-    let beyond = past_the_edge(out).union(past_the_edge(out.max(ahead_deg.abs())));
-    is_shorter && bounds.blocks(beyond, start).is_none()
+    let sweep = past_the_edge(out).union(past_the_edge(out.max(ahead_deg.abs())));
+    is_shorter && bounds.blocks(sweep, start).is_none()
 }
 
 /// Judges a manual motion while the angle of an axis is unknown. The motion needs no permission if
@@ -215,13 +215,13 @@ fn by_hand_unseen(
     let bounds_now = situation.bounds_now();
     let start = intervals.sweep();
     let sweep = start.union(intervals.after(ahead_deg, situation.mount.travel_deg()));
-    let Some((barrier, at)) = bounds_now.blocks_unseen(sweep, start) else { return Ok(()) };
+    let Some((barrier, direction)) = bounds_now.blocks_unseen(sweep, start) else { return Ok(()) };
     // The operator's permission does not override a known elevation below the minimum, nor a
     // barrier that the axes are definitely outside.
     let Intervals([_, second]) = intervals;
     let knows_elevation = matches!(situation.mount, Mount::AzEl { .. }) && second.is_known;
     if knows_elevation && bounds_now.leads_below_the_floor(sweep, start) {
-        return Err(Refusal::Forbidden { barrier: Barrier::MinimumElevation, direction: at });
+        return Err(Refusal::Forbidden { barrier: Barrier::MinimumElevation, direction });
     }
     let outside_of = bounds_now.without_entered(start);
     blocked(sweep, start, &situation.at_present(&outside_of))?;
@@ -271,22 +271,24 @@ impl Depth {
         self.way_out_deg.is_some_and(|deg| deg <= 0.0)
     }
 
-    /// Returns `true` if `there` is shallower by `gain_deg`, or outside of everything, and no lower
+    /// Returns `true` if `next` is shallower by `gain_deg`, or outside of everything, and no lower
     /// below the minimum elevation.
-    fn is_left_for(&self, there: &Self, gain_deg: f64) -> bool {
-        if there.below_deg > self.below_deg + OUT_GAIN_DEG {
+    fn is_left_for(&self, next: &Self, gain_deg: f64) -> bool {
+        if next.below_deg > self.below_deg + OUT_GAIN_DEG {
             return false;
         }
-        match (self.way_out_deg, there.way_out_deg) {
-            (Some(here), Some(there)) => there < here - gain_deg || (here <= 0.0 && there <= 0.0),
+        match (self.way_out_deg, next.way_out_deg) {
+            (Some(here), Some(next_deg)) => {
+                next_deg < here - gain_deg || (here <= 0.0 && next_deg <= 0.0)
+            }
             (Some(_), None) => false,
             // No single axis can get out: the edge of the deepest barrier must come nearer, and no
             // other edge may recede.
             (None, _) => {
                 let deepest = |depths: &[f64]| depths.iter().copied().fold(0.0, f64::max);
-                let mut each = self.inside_deg.iter().zip(&there.inside_deg);
-                each.all(|(here, there)| *there <= here + OUT_GAIN_DEG)
-                    && deepest(&there.inside_deg) < deepest(&self.inside_deg) - gain_deg
+                let mut pairs = self.inside_deg.iter().zip(&next.inside_deg);
+                pairs.all(|(here, next_deg)| *next_deg <= here + OUT_GAIN_DEG)
+                    && deepest(&next.inside_deg) < deepest(&self.inside_deg) - gain_deg
             }
         }
     }
@@ -295,7 +297,7 @@ impl Depth {
 fn blocked(sweep: Sweep, start: Sweep, bounds: &BoundsAt<'_>) -> Result<(), Refusal> {
     bounds
         .blocks(sweep, start)
-        .map_or(Ok(()), |(barrier, at)| Err(Refusal::Forbidden { barrier, direction: at }))
+        .map_or(Ok(()), |(barrier, direction)| Err(Refusal::Forbidden { barrier, direction }))
 }
 
 /// Returns the possible end positions of the axes after a motion to a position; `None` if unknown.
@@ -348,7 +350,7 @@ impl Gate {
     ) -> Result<Route, NoRoute> {
         let check = |motion| self.check_within(motion, intent, Some(budget), now);
         let refusal = match check(motion) {
-            Ok(()) => return Ok(Route { first: motion, then: None }),
+            Ok(()) => return Ok(Route { first: motion, second: None }),
             Err(refusal @ Refusal::Forbidden { .. }) => refusal,
             Err(other) => return Err(other.into()),
         };
@@ -362,7 +364,7 @@ impl Gate {
             let is_free = bounds_now.blocks(second, Sweep::at_position(corner_deg)).is_none()
                 && check(first).is_ok();
             if is_free {
-                return Ok(Route { first, then: Some(motion) });
+                return Ok(Route { first, second: Some(motion) });
             }
         }
         if intent != Intent::Track {
@@ -381,7 +383,7 @@ impl Gate {
             .take_while(|_| !budget.is_spent())
             .find(is_reached);
         farthest
-            .map(|place_deg| Route { first: self.to_axes(*place_deg), then: Some(motion) })
+            .map(|place_deg| Route { first: self.to_axes(*place_deg), second: Some(motion) })
             .ok_or(NoRoute::Refused(refusal))
     }
 
@@ -467,13 +469,13 @@ impl Gate {
         Motion::Position { azimuth: Some(azimuth), elevation: Some(elevation) }
     }
 
-    /// Refuses a blocked path to `to` that the unit takes at its own rates. The unit keeps to its
-    /// own minimum elevation at the end, but not between: if both axes of an X/Y mount turn, the
-    /// antenna may dip.
-    pub(super) fn slew_is_clear(&self, to: AzEl, now: Moment) -> Result<(), Refusal> {
+    /// Refuses a blocked path to `direction` that the unit takes at its own rates. The unit keeps
+    /// to its own minimum elevation at the end, but not between: if both axes of an X/Y mount turn,
+    /// the antenna may dip.
+    pub(super) fn slew_is_clear(&self, direction: AzEl, now: Moment) -> Result<(), Refusal> {
         let situation = self.situation(Intent::Track, false, now);
         let start = situation.intervals.ok_or(Refusal::PositionUnknown)?.sweep();
-        let end = target(Some(to.azimuth), Some(to.elevation), start, &situation)
+        let end = target(Some(direction.azimuth), Some(direction.elevation), start, &situation)
             .ok_or(Refusal::PositionUnknown)?;
         let along = Angle::from_degrees(ALONG_DEG);
         let bounds = situation.at_present(&self.bounds).with_floor_lower_by(along);

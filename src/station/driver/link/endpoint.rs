@@ -170,10 +170,10 @@ mod tests {
 
     #[test]
     fn only_a_name_needs_the_name_service() {
-        let known = |address| known_endpoints(&Antenna::satrak("Dish", address).connection);
+        let endpoints = |address| known_endpoints(&Antenna::satrak("Dish", address).connection);
         let address = "10.0.0.5:4001".parse().unwrap();
-        assert_eq!(known(" 10.0.0.5:4001"), Some(vec![Endpoint::Tcp(address)]));
-        assert_eq!(known("localhost:4001"), None);
+        assert_eq!(endpoints(" 10.0.0.5:4001"), Some(vec![Endpoint::Tcp(address)]));
+        assert_eq!(endpoints("localhost:4001"), None);
         let port = |address| known_endpoints(&Antenna::rc2000c("Horn", address).connection);
         assert_eq!(port("/dev/no-such-port-as-this"), None);
         assert_eq!(port("10.0.0.5:4001"), Some(vec![Endpoint::Tcp(address)]));
@@ -195,14 +195,14 @@ mod tests {
 
     #[tokio::test]
     async fn a_lock_that_is_taken_yields_no_address() {
-        struct Taken;
-        impl UnitLock for Taken {
+        struct FailingLock;
+        impl UnitLock for FailingLock {
             fn lock(&self, endpoints: &[Endpoint]) -> io::Result<()> {
                 assert!(endpoints.iter().all(|place| place.key() == "tcp loopback 4001"));
                 Err(io::Error::other("taken"))
             }
         }
-        let lookup = Lookup::new("localhost:4001", Arc::new(Taken));
+        let lookup = Lookup::new("localhost:4001", Arc::new(FailingLock));
         assert_eq!(lookup.locked_addresses().await.unwrap_err().to_string(), "taken");
         let nowhere = Lookup::new("nowhere.invalid:4001", Arc::new(()));
         let error = nowhere.locked_addresses().await.unwrap_err().to_string();

@@ -81,12 +81,12 @@ impl<S: AsyncRead + Unpin> AsyncRead for WithParity<S> {
         context: &mut Context<'_>,
         buffer: &mut ReadBuf<'_>,
     ) -> Poll<io::Result<()>> {
-        let this = self.get_mut();
+        let port = self.get_mut();
         let before = buffer.filled().len();
-        ready!(Pin::new(&mut this.stream).poll_read(context, buffer))?;
+        ready!(Pin::new(&mut port.stream).poll_read(context, buffer))?;
         let read = buffer.filled_mut().get_mut(before..).unwrap_or_default();
-        this.parity.check(read);
-        this.heard.listen(read);
+        port.parity.check(read);
+        port.heard.listen(read);
         Poll::Ready(Ok(()))
     }
 }
@@ -97,15 +97,15 @@ impl<S: AsyncWrite + Unpin> AsyncWrite for WithParity<S> {
         context: &mut Context<'_>,
         bytes: &[u8],
     ) -> Poll<io::Result<usize>> {
-        let this = self.get_mut();
+        let port = self.get_mut();
         let mut prepared = [0; PIECE];
         let length = bytes.len().min(PIECE);
-        for (to, from) in prepared.iter_mut().zip(bytes) {
-            *to = *from;
+        for (target, source) in prepared.iter_mut().zip(bytes) {
+            *target = *source;
         }
         let piece = prepared.get_mut(..length).unwrap_or_default();
-        this.parity.prepare(piece);
-        Pin::new(&mut this.stream).poll_write(context, piece)
+        port.parity.prepare(piece);
+        Pin::new(&mut port.stream).poll_write(context, piece)
     }
 
     fn poll_flush(self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<io::Result<()>> {

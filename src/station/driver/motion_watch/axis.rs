@@ -19,7 +19,7 @@ const SLOWEST_DEG_S: f64 = 0.25;
 /// Max creep of a standing axis, 0.3 degrees a minute, in degrees a second.
 const CREEPS_DEG_S: f64 = 0.3 / 60.0;
 /// Max number of stored motions. For a further motion, the watch joins the oldest two.
-const MOST_MOTIONS: usize = 24;
+const MAX_MOTIONS: usize = 24;
 /// Max delay between a motion of the axis and the reading that shows it.
 const LATE: Duration = Duration::from_secs(2);
 /// Max time without a reading. After a longer gap, the axis may have turned and stopped.
@@ -33,9 +33,9 @@ const TURN_DEG: f64 = 360.0;
 
 /// Possible range of the axis at the time of the last reading inside.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Known {
+struct Estimate {
     range: Range,
-    at: Instant,
+    time: Instant,
     /// Turns added to a reading that wraps, degrees.
     turns_deg: f64,
 }
@@ -45,14 +45,14 @@ struct Known {
 struct Turned {
     /// Reading to compare later readings with, degrees.
     from_deg: f64,
-    at: Option<Instant>,
+    time: Option<Instant>,
     is_up: bool,
 }
 
 /// Readings outside the interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Outside {
-    since: Instant,
+    start: Instant,
     /// `true` if the unit has reported a driven axis.
     is_driven: bool,
 }
@@ -60,7 +60,7 @@ struct Outside {
 #[derive(Debug)]
 pub(super) struct AxisWatch {
     figures: AxisFigures,
-    known: Option<Known>,
+    estimate: Option<Estimate>,
     motions: Vec<Live>,
     /// Send time of the last motion. `starts` is `true` if the axis stood before and has not turned
     /// since.
@@ -93,8 +93,8 @@ impl AxisWatch {
         let AxisLessons { past_ends, dead_time, at_rest } = *lessons;
         Self {
             figures,
-            known: None,
-            motions: Vec::with_capacity(MOST_MOTIONS + 1),
+            estimate: None,
+            motions: Vec::with_capacity(MAX_MOTIONS + 1),
             sent: None,
             starts: false,
             last_way_deg: 0.0,
@@ -114,7 +114,7 @@ impl AxisWatch {
     }
 
     pub(super) fn lessons(&self) -> AxisLessons {
-        let (past_ends, at_rest) = (self.runs_past.known, self.spread.known);
+        let (past_ends, at_rest) = (self.runs_past.past_ends, self.spread.at_rest);
         AxisLessons { past_ends, dead_time: self.dead_time, at_rest }
     }
 
@@ -125,7 +125,7 @@ impl AxisWatch {
 
     pub(super) fn commanded(&mut self, lead: Lead, number: u64, now: Instant) {
         let here = self.reachable(now);
-        let turns_deg = self.known.map_or(0.0, |known| known.turns_deg);
+        let turns_deg = self.estimate.map_or(0.0, |estimate| estimate.turns_deg);
         let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
         let (down_to_deg, up_to_deg) = match lead {
             Lead::To(deg) => (deg + turns_deg, deg + turns_deg),
@@ -153,13 +153,13 @@ impl AxisWatch {
         self.last_way_deg = way_deg;
         self.runs_past.commanded(way_deg.abs(), are_steps);
         (self.sent, self.has_settled) = (Some(now), false);
-        let until = None;
+        let expiry = None;
         let passed = [None; 2];
         let mut motion =
-            Live { number, down_to_deg, up_to_deg, ends, is_jog, either_way, led, passed, until };
+            Live { number, down_to_deg, up_to_deg, ends, is_jog, either_way, led, passed, expiry };
         motion.look(here, self.figures.arrives_within_deg, now);
         self.motions.push(motion);
-        if self.motions.len() > MOST_MOTIONS {
+        if self.motions.len() > MAX_MOTIONS {
             let oldest = self.motions.remove(0);
             if let Some(next) = self.motions.first_mut() {
                 *next = oldest.joined(*next);
@@ -171,9 +171,9 @@ impl AxisWatch {
     /// motion, because somebody else may have moved the axis away from there.
     fn way_deg(&self, end: Range, here: Option<Range>) -> f64 {
         let last = self.motions.last().filter(|last| last.ends);
-        let from = last.map(|last| Range { from_deg: last.down_to_deg, to_deg: last.up_to_deg });
-        let Some(from) = from.or(here) else { return f64::INFINITY };
-        let way_deg = end.middle_deg() - from.middle_deg();
+        let start = last.map(|last| Range { from_deg: last.down_to_deg, to_deg: last.up_to_deg });
+        let Some(start) = start.or(here) else { return f64::INFINITY };
+        let way_deg = end.middle_deg() - start.middle_deg();
         let way_deg = if way_deg.is_nan() { f64::INFINITY } else { way_deg };
         self.turned_deg(way_deg)
     }
@@ -192,9 +192,9 @@ impl AxisWatch {
         if !self.motions.iter().any(|motion| motion.number == number) {
             return;
         }
-        let until = now + max_dead_time(self.dead_time);
+        let expiry = now + max_dead_time(self.dead_time);
         for motion in self.motions.iter_mut().filter(|motion| motion.number < number) {
-            motion.until.get_or_insert(until);
+            motion.expiry.get_or_insert(expiry);
         }
     }
 
@@ -206,7 +206,7 @@ impl AxisWatch {
     /// slow motion.
     pub(super) fn proved_still(&mut self, now: Instant) {
         for motion in &mut self.motions {
-            motion.until = Some(motion.until.map_or(now, |until| until.min(now)));
+            motion.expiry = Some(motion.expiry.map_or(now, |expiry| expiry.min(now)));
         }
     }
 
@@ -216,7 +216,7 @@ impl AxisWatch {
     }
 
     pub(super) fn start_anew(&mut self) {
-        self.known = None;
+        self.estimate = None;
         self.outside = None;
         self.turned = None;
         self.rate_from = None;
@@ -229,30 +229,31 @@ impl AxisWatch {
     /// was stopped by somebody else. The axis may coast by `coasts_deg`. Returns `false` without an
     /// earlier reading.
     pub(super) fn explains(&self, reading: AxisReading, coasts_deg: f64) -> bool {
-        let AxisReading { angle_deg, motion, asked, received, .. } = reading;
-        if self.open_until.is_some_and(|until| asked <= until) {
+        let AxisReading { angle_deg, motion, requested, received, .. } = reading;
+        if self.open_until.is_some_and(|end| requested <= end) {
             return true;
         }
-        let (Some(known), Some(reachable)) = (self.known, self.reachable(received)) else {
+        let (Some(estimate), Some(reachable)) = (self.estimate, self.reachable(received)) else {
             return false;
         };
-        let deg = angle_deg + self.turns_deg(angle_deg, known, reachable);
-        let here = Range::about(deg, self.error_deg());
+        let deg = angle_deg + self.turns_deg(angle_deg, estimate, reachable);
+        let here = Range::with_error(deg, self.error_deg());
         if motion != AxisMotion::Still {
-            return here.within(reachable).is_some();
+            return here.overlap(reachable).is_some();
         }
-        let live = self.motions.iter().filter_map(|motion| motion.at(known.at));
+        let live = self.motions.iter().filter_map(|motion| motion.state_at(estimate.time));
         let ends_deg = live.flat_map(|motion| [motion.down_to_deg, motion.up_to_deg]);
-        let ends = ends_deg.map(|end_deg| Range::about(end_deg, self.figures.arrives_within_deg));
-        let rests = ends.chain([known.range]);
+        let ends =
+            ends_deg.map(|end_deg| Range::with_error(end_deg, self.figures.arrives_within_deg));
+        let rests = ends.chain([estimate.range]);
         let mut rests = rests.map(|rest| rest.widened(coasts_deg));
-        here.within(reachable).is_some() && rests.any(|rest| here.within(rest).is_some())
+        here.overlap(reachable).is_some() && rests.any(|rest| here.overlap(rest).is_some())
     }
 
     /// Returns `true` while a reading is outside the interval. The suspicion expires, because an
     /// axis may report no further angle.
     pub(super) fn is_suspect(&self, now: Instant) -> bool {
-        self.outside.is_some_and(|outside| now < outside.since + SWINGS_BACK + UNSEEN)
+        self.outside.is_some_and(|outside| now < outside.start + SWINGS_BACK + UNSEEN)
     }
 
     pub(super) fn measured_sway_deg(&self) -> Option<f64> {
@@ -267,23 +268,23 @@ impl AxisWatch {
 
     /// Returns the unit's own evidence once its reports have lasted [`APART`].
     fn take_drive(&mut self, reading: AxisReading) -> Option<Evidence> {
-        let AxisReading { drive, asked, .. } = reading;
+        let AxisReading { drive, requested, .. } = reading;
         let evidence = match drive {
             Drive::Off | Drive::On => None,
-            Drive::Jogged => (!self.may_be_jogged(asked)).then_some(Evidence::Jogged),
+            Drive::Jogged => (!self.may_be_jogged(requested)).then_some(Evidence::Jogged),
             Drive::Runaway => Some(Evidence::Runaway),
         };
         let Some(evidence) = evidence else {
             self.reported_since = None;
             return None;
         };
-        let since = *self.reported_since.get_or_insert(asked);
-        (asked.saturating_duration_since(since) >= APART).then(|| self.report_once(evidence))?
+        let start = *self.reported_since.get_or_insert(requested);
+        (requested.saturating_duration_since(start) >= APART).then(|| self.report_once(evidence))?
     }
 
     /// Returns `true` while a jog or step from Azel may still turn the axis.
-    fn may_be_jogged(&self, at: Instant) -> bool {
-        let mut live = self.motions.iter().filter_map(|motion| motion.at(at));
+    fn may_be_jogged(&self, time: Instant) -> bool {
+        let mut live = self.motions.iter().filter_map(|motion| motion.state_at(time));
         live.any(|motion| motion.is_jog)
     }
 
@@ -293,105 +294,112 @@ impl AxisWatch {
     }
 
     fn take_angle(&mut self, reading: AxisReading) -> Option<Evidence> {
-        let AxisReading { angle_deg, motion, drive, asked, received } = reading;
+        let AxisReading { angle_deg, motion, drive, requested, received } = reading;
         let error_deg = self.error_deg();
-        let since = self.known.map_or(asked, |known| known.at);
-        self.motions.retain(|motion| motion.at(since).is_some());
+        let time = self.estimate.map_or(requested, |estimate| estimate.time);
+        self.motions.retain(|motion| motion.state_at(time).is_some());
         self.was_found_turning &= motion != AxisMotion::Still;
-        if self.known.is_none() {
+        if self.estimate.is_none() {
             self.was_found_turning = motion != AxisMotion::Still;
         }
         if self.was_found_turning {
             self.opened(received);
         }
-        let is_open = self.open_until.is_some_and(|until| asked <= until);
+        let is_open = self.open_until.is_some_and(|end| requested <= end);
         let reachable = self.reachable(received).filter(|_| !is_open);
-        let (Some(known), Some(reachable)) = (self.known, reachable) else {
-            self.begin(angle_deg, 0.0, asked);
+        let (Some(estimate), Some(reachable)) = (self.estimate, reachable) else {
+            self.begin(angle_deg, 0.0, requested);
             return None;
         };
-        let turns_deg = self.turns_deg(angle_deg, known, reachable);
+        let turns_deg = self.turns_deg(angle_deg, estimate, reachable);
         let deg = angle_deg + turns_deg;
         if self.figures.wraps && reachable.to_deg - reachable.from_deg > TURN_DEG - error_deg * 2.0
         {
             self.lose_turns();
         }
-        let here = Range::about(deg, error_deg);
-        let Some(range) = here.within(reachable) else {
-            let is_driven = drive != Drive::Off || !self.is_settled(asked);
-            let outside = self.outside.get_or_insert(Outside { since: asked, is_driven });
+        let here = Range::with_error(deg, error_deg);
+        let Some(range) = here.overlap(reachable) else {
+            let is_driven = drive != Drive::Off || !self.is_settled(requested);
+            let outside = self.outside.get_or_insert(Outside { start: requested, is_driven });
             outside.is_driven |= is_driven;
-            let lasted = asked.saturating_duration_since(outside.since);
+            let lasted = requested.saturating_duration_since(outside.start);
             let may_swing_back = !outside.is_driven && lasted < SWINGS_BACK;
             if lasted < APART || may_swing_back {
                 return None;
             }
-            self.begin(angle_deg, turns_deg, asked);
+            self.begin(angle_deg, turns_deg, requested);
             return self.report_once(Evidence::Outside { off_deg: reachable.off_deg(deg) });
         };
         self.outside = None;
-        self.know(angle_deg, turns_deg, range, [asked, received]);
-        self.learn(deg, drive, asked);
+        self.know(angle_deg, turns_deg, range, [requested, received]);
+        self.learn(deg, drive, requested);
         None
     }
 
     /// Restarts the watch at a reading and discards the previous interval.
-    fn begin(&mut self, angle_deg: f64, turns_deg: f64, at: Instant) {
+    fn begin(&mut self, angle_deg: f64, turns_deg: f64, time: Instant) {
         let deg = angle_deg + turns_deg;
-        self.known = Some(Known { range: Range::about(deg, self.error_deg()), at, turns_deg });
-        self.turned = Some(Turned { from_deg: deg, at: Some(at), is_up: false });
+        self.estimate =
+            Some(Estimate { range: Range::with_error(deg, self.error_deg()), time, turns_deg });
+        self.turned = Some(Turned { from_deg: deg, time: Some(time), is_up: false });
         (self.outside, self.has_settled, self.starts) = (None, false, false);
-        self.rate_from = Some((deg, at));
+        self.rate_from = Some((deg, time));
         self.spread.turns();
         self.runs_past.forget();
-        self.may_have_passed(at);
+        self.may_have_passed(time);
     }
 
     /// Records that the unseen axis may have passed the end of any motion.
-    fn may_have_passed(&mut self, at: Instant) {
+    fn may_have_passed(&mut self, time: Instant) {
         for motion in &mut self.motions {
-            (motion.led, motion.passed) = ([true; 2], [Some(at); 2]);
+            (motion.led, motion.passed) = ([true; 2], [Some(time); 2]);
         }
     }
 
-    fn know(&mut self, angle_deg: f64, turns_deg: f64, range: Range, [at, received]: [Instant; 2]) {
-        let before = self.known.replace(Known { range, at, turns_deg });
-        let gap = before.map(|before| at.saturating_duration_since(before.at));
+    fn know(
+        &mut self,
+        angle_deg: f64,
+        turns_deg: f64,
+        range: Range,
+        [time, received]: [Instant; 2],
+    ) {
+        let before = self.estimate.replace(Estimate { range, time, turns_deg });
+        let gap = before.map(|before| time.saturating_duration_since(before.time));
         let deg = angle_deg + turns_deg;
         // Between two readings, the axis may have been further.
-        let longest = before.map(|before| received.saturating_duration_since(before.at));
+        let longest = before.map(|before| received.saturating_duration_since(before.time));
         let went_s = longest.unwrap_or_default().as_secs_f64() / 2.0;
-        let went_deg = self.runs_past.most_deg_s() * went_s;
+        let went_deg = self.runs_past.max_deg_s() * went_s;
         for motion in &mut self.motions {
-            motion.look(Some(range.widened(went_deg)), self.figures.arrives_within_deg, at);
+            motion.look(Some(range.widened(went_deg)), self.figures.arrives_within_deg, time);
         }
         // The motion of the axis during the gap is unknown.
         if let Some(turned) = self.turned.as_mut().filter(|_| gap.is_some_and(|gap| gap > UNSEEN)) {
-            (turned.from_deg, turned.at) = (deg, Some(at));
-            self.rate_from = Some((deg, at));
+            (turned.from_deg, turned.time) = (deg, Some(time));
+            self.rate_from = Some((deg, time));
             self.has_settled = false;
-            self.may_have_passed(at);
+            self.may_have_passed(time);
         }
-        let first = Turned { from_deg: deg, at: Some(at), is_up: false };
+        let first = Turned { from_deg: deg, time: Some(time), is_up: false };
         let Turned { from_deg, .. } = *self.turned.get_or_insert(first);
-        self.measure_rate(deg, at, received);
+        self.measure_rate(deg, time, received);
         if (deg - from_deg).abs() > self.error_deg_of_two() {
             let is_up = deg > from_deg;
-            if self.is_led(is_up, deg, at) {
+            if self.is_led(is_up, deg, time) {
                 // A drive may start late.
                 self.has_settled = false;
             }
             if std::mem::take(&mut self.starts)
                 && let Some(sent) = self.sent
             {
-                note_start(&mut self.dead_time, at.saturating_duration_since(sent));
+                note_start(&mut self.dead_time, time.saturating_duration_since(sent));
             }
-            self.turned = Some(Turned { from_deg: deg, at: Some(at), is_up });
+            self.turned = Some(Turned { from_deg: deg, time: Some(time), is_up });
             // The axis hunts around its target.
             for motion in self
                 .motions
                 .iter_mut()
-                .filter(|motion| motion.until.is_none_or(|until| at <= until + LATE))
+                .filter(|motion| motion.expiry.is_none_or(|expiry| time <= expiry + LATE))
             {
                 let [down, up] = &mut motion.led;
                 *if is_up { up } else { down } = true;
@@ -401,36 +409,36 @@ impl AxisWatch {
 
     /// Returns `true` if a motion drives the axis in this direction at `deg`. Beyond the end of the
     /// motion, the axis may only coast.
-    fn is_led(&self, is_up: bool, deg: f64, at: Instant) -> bool {
-        let mut live = self.motions.iter().filter_map(|motion| motion.at(at));
+    fn is_led(&self, is_up: bool, deg: f64, time: Instant) -> bool {
+        let mut live = self.motions.iter().filter_map(|motion| motion.state_at(time));
         live.any(|motion| if is_up { motion.up_to_deg > deg } else { motion.down_to_deg < deg })
     }
 
     /// Learns the rate from readings that are far enough apart, at any polling rate.
-    fn measure_rate(&mut self, deg: f64, at: Instant, received: Instant) {
-        let (from_deg, from) = *self.rate_from.get_or_insert((deg, at));
-        let lasted = at.saturating_duration_since(from);
+    fn measure_rate(&mut self, deg: f64, time: Instant, received: Instant) {
+        let (from_deg, start) = *self.rate_from.get_or_insert((deg, time));
+        let lasted = time.saturating_duration_since(start);
         let turned_deg = (deg - from_deg).abs();
         if lasted < RATE_APART || turned_deg <= self.error_deg_of_two() {
             return;
         }
-        if self.is_led(deg > from_deg, deg, at) {
-            let longest = received.saturating_duration_since(from);
+        if self.is_led(deg > from_deg, deg, time) {
+            let longest = received.saturating_duration_since(start);
             self.runs_past.turned(turned_deg / longest.as_secs_f64());
         }
-        self.rate_from = Some((deg, at));
+        self.rate_from = Some((deg, time));
     }
 
     /// Learns from a reading inside the interval.
-    fn learn(&mut self, deg: f64, drive: Drive, at: Instant) {
-        if self.is_settled(at) {
+    fn learn(&mut self, deg: f64, drive: Drive, time: Instant) {
+        if self.is_settled(time) {
             self.has_settled = true;
             // A continuing report is no new foreign motion.
             self.is_told &= self.reported_since.is_some();
             if let Some(turned) = &mut self.turned {
                 turned.from_deg = deg;
             }
-            self.rate_from = Some((deg, at));
+            self.rate_from = Some((deg, time));
             self.has_arrived(deg);
             // With power on, changing readings may be slow motion instead of noise.
             if drive == Drive::Off {
@@ -443,21 +451,23 @@ impl AxisWatch {
             return;
         }
         // A drive that obeys late is still turning to an earlier target.
-        let live = || self.motions.iter().filter_map(|motion| motion.at(at));
+        let live = || self.motions.iter().filter_map(|motion| motion.state_at(time));
         let up_to_deg = live().map(|motion| motion.up_to_deg).fold(f64::NEG_INFINITY, f64::max);
         let down_to_deg = live().map(|motion| motion.down_to_deg).fold(f64::INFINITY, f64::min);
         let ends = live().flat_map(|motion| [motion.up_to_deg, motion.down_to_deg]);
-        let off = ends.map(|end_deg| self.turned_deg(deg - end_deg).abs());
+        let distances_deg = ends.map(|end_deg| self.turned_deg(deg - end_deg).abs());
         let is_between =
             (down_to_deg..=up_to_deg).contains(&deg) && up_to_deg - down_to_deg < TURN_DEG / 2.0;
-        let off_deg = if is_between { 0.0 } else { off.fold(f64::INFINITY, f64::min) };
-        let turns =
-            self.turned.and_then(|turned| turned.at).is_some_and(|turned| at <= turned + UNSEEN);
+        let off_deg = if is_between { 0.0 } else { distances_deg.fold(f64::INFINITY, f64::min) };
+        let turns = self
+            .turned
+            .and_then(|turned| turned.time)
+            .is_some_and(|turned| time <= turned + UNSEEN);
         let is_there = turns && off_deg <= self.figures.arrives_within_deg + self.error_deg();
-        self.runs_past.look(is_there, at);
-        let Some(Turned { at: Some(turned_at), is_up, .. }) = self.turned else { return };
+        self.runs_past.look(is_there, time);
+        let Some(Turned { time: Some(turned_at), is_up, .. }) = self.turned else { return };
         let past_deg = if is_up { deg - up_to_deg } else { down_to_deg - deg };
-        if turned_at == at && past_deg > 0.0 && past_deg.is_finite() {
+        if turned_at == time && past_deg > 0.0 && past_deg.is_finite() {
             self.runs_past.past(past_deg);
         }
     }
@@ -489,11 +499,11 @@ impl AxisWatch {
     }
 
     /// Returns `true` if the axis has come to rest after its last motion.
-    fn is_settled(&self, at: Instant) -> bool {
-        let last = self.sent.max(self.turned.and_then(|turned| turned.at));
+    fn is_settled(&self, time: Instant) -> bool {
+        let last = self.sent.max(self.turned.and_then(|turned| turned.time));
         let shows_s = self.error_deg_of_two() / SLOWEST_DEG_S;
         let shows = Duration::try_from_secs_f64(shows_s).unwrap_or(DEAD_TIME);
-        self.has_settled || last.is_none_or(|last| last + DEAD_TIME + COASTS + shows < at)
+        self.has_settled || last.is_none_or(|last| last + DEAD_TIME + COASTS + shows < time)
     }
 
     /// Returns the max error of a reading, with half of the sway, degrees.
@@ -506,45 +516,45 @@ impl AxisWatch {
     }
 
     /// Returns the turns to add to a reading for the best fit, degrees.
-    fn turns_deg(&self, angle_deg: f64, known: Known, reachable: Range) -> f64 {
+    fn turns_deg(&self, angle_deg: f64, estimate: Estimate, reachable: Range) -> f64 {
         if !self.figures.wraps {
-            return known.turns_deg;
+            return estimate.turns_deg;
         }
-        if reachable.off_deg(angle_deg + known.turns_deg) == 0.0 {
-            return known.turns_deg;
+        if reachable.off_deg(angle_deg + estimate.turns_deg) == 0.0 {
+            return estimate.turns_deg;
         }
-        let near = ((known.range.middle_deg() - angle_deg) / TURN_DEG).round();
+        let near = ((estimate.range.middle_deg() - angle_deg) / TURN_DEG).round();
         let turns_deg = [near, near - 1.0, near + 1.0].map(|turns| turns * TURN_DEG);
         let off_deg = |turns_deg: f64| reachable.off_deg(angle_deg + turns_deg).abs();
         let best_deg =
             turns_deg.into_iter().min_by(|one, other| off_deg(*one).total_cmp(&off_deg(*other)));
-        best_deg.unwrap_or(known.turns_deg)
+        best_deg.unwrap_or(estimate.turns_deg)
     }
 
     /// Returns the max overshoot past the end of a motion, degrees: from the full rate after a
     /// redirection.
-    fn most_past_deg(&self, at: Instant) -> f64 {
+    fn max_past_deg(&self, time: Instant) -> f64 {
         let is_redirected =
-            self.redirected.is_some_and(|from| at <= from + DEAD_TIME + COASTS + LATE);
-        let most_deg = self.runs_past.most_deg();
-        if is_redirected { most_deg.max(self.runs_past.coasts_deg()) } else { most_deg }
+            self.redirected.is_some_and(|start| time <= start + DEAD_TIME + COASTS + LATE);
+        let max_deg = self.runs_past.max_deg();
+        if is_redirected { max_deg.max(self.runs_past.coasts_deg()) } else { max_deg }
     }
 
-    /// Returns the possible range of the axis at `at`.
-    fn reachable(&self, at: Instant) -> Option<Range> {
-        let Known { range, at: since, .. } = self.known?;
-        let elapsed_s = at.saturating_duration_since(since).as_secs_f64();
+    /// Returns the possible range of the axis at `time`.
+    fn reachable(&self, time: Instant) -> Option<Range> {
+        let Estimate { range, time: start, .. } = self.estimate?;
+        let elapsed_s = time.saturating_duration_since(start).as_secs_f64();
         let reach_deg = FASTEST_DEG_S * elapsed_s;
         let mut reachable = range.widened(CREEPS_DEG_S * elapsed_s);
-        let is_unseen = at.saturating_duration_since(since) > UNSEEN;
-        let is_settled = self.is_settled(since) && !(is_unseen && self.sent > Some(since));
-        for motion in self.motions.iter().filter_map(|motion| motion.at(since)) {
+        let is_unseen = time.saturating_duration_since(start) > UNSEEN;
+        let is_settled = self.is_settled(start) && !(is_unseen && self.sent > Some(start));
+        for motion in self.motions.iter().filter_map(|motion| motion.state_at(start)) {
             let Live { mut down_to_deg, mut up_to_deg, passed: [from_above, from_below], .. } =
                 motion;
             let arrives_deg = self.figures.arrives_within_deg;
-            let past_deg = arrives_deg + self.most_past_deg(since) + self.error_deg();
+            let past_deg = arrives_deg + self.max_past_deg(start) + self.error_deg();
             let may_pass = |passed: Option<Instant>| {
-                let passed = passed.is_some_and(|passed| since <= passed + COASTS + LATE);
+                let passed = passed.is_some_and(|passed| start <= passed + COASTS + LATE);
                 !is_settled && (passed || is_unseen)
             };
             if may_pass(from_above) {

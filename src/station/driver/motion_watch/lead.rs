@@ -44,14 +44,14 @@ pub(super) struct Live {
     /// run past the end downwards, and upwards.
     pub(super) passed: [Option<Instant>; 2],
     /// Time by which the drive obeys a newer motion.
-    pub(super) until: Option<Instant>,
+    pub(super) expiry: Option<Instant>,
 }
 
 impl Live {
-    /// Returns the state of the motion at `at`; `None` if the axis has come to rest before.
-    pub(super) fn at(self, at: Instant) -> Option<Self> {
-        let Some(until) = self.until.filter(|until| *until < at) else { return Some(self) };
-        if until + COASTS < at {
+    /// Returns the state of the motion at `time`; `None` if the axis has come to rest before.
+    pub(super) fn state_at(self, time: Instant) -> Option<Self> {
+        let Some(expiry) = self.expiry.filter(|expiry| *expiry < time) else { return Some(self) };
+        if expiry + COASTS < time {
             return None;
         }
         let [down, up] = self.led;
@@ -63,13 +63,13 @@ impl Live {
     }
 
     /// Records on which side of the end the axis is; `range` is `None` if that is unknown.
-    pub(super) fn look(&mut self, range: Option<Range>, arrives_deg: f64, at: Instant) {
+    pub(super) fn look(&mut self, range: Option<Range>, arrives_deg: f64, time: Instant) {
         let [from_above, from_below] = &mut self.passed;
         if range.is_none_or(|range| range.to_deg >= self.down_to_deg - arrives_deg) {
-            *from_above = Some(at);
+            *from_above = Some(time);
         }
         if range.is_none_or(|range| range.from_deg <= self.up_to_deg + arrives_deg) {
-            *from_below = Some(at);
+            *from_below = Some(time);
         }
     }
 
@@ -85,7 +85,7 @@ impl Live {
             either_way: self.either_way || newer.either_way,
             led: [down || newer_down, up || newer_up],
             passed: newer.passed,
-            until: self.until.zip(newer.until).map(|(one, other)| one.max(other)),
+            expiry: self.expiry.zip(newer.expiry).map(|(one, other)| one.max(other)),
         }
     }
 }

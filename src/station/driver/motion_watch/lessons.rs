@@ -36,7 +36,7 @@ const SPREADS: f64 = 1.3;
 /// Overshoot of an axis past the end of its motion.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct RunsPast {
-    pub(super) known: PastEnds,
+    pub(super) past_ends: PastEnds,
     /// `true` if each motion replaces an unfinished one.
     are_steps: bool,
     /// Overshoot past the current end, degrees.
@@ -45,7 +45,7 @@ pub(super) struct RunsPast {
     way_deg: f64,
     /// Length of the longest such motion in this window and in the previous window, degrees.
     left_deg: [f64; 2],
-    since: Option<Instant>,
+    window_start: Option<Instant>,
     /// `true` if the axis reached an end in this window.
     has_reached: bool,
     /// `true` if Azel sent a motion since the last window that counts.
@@ -53,32 +53,32 @@ pub(super) struct RunsPast {
 }
 
 impl RunsPast {
-    pub(super) fn new(known: PastEnds) -> Self {
-        Self { known, ..Self::default() }
+    pub(super) fn new(past_ends: PastEnds) -> Self {
+        Self { past_ends, ..Self::default() }
     }
 
     /// Takes a reading; `is_there` is `true` near the end of the motion.
-    pub(super) fn look(&mut self, is_there: bool, at: Instant) {
+    pub(super) fn look(&mut self, is_there: bool, time: Instant) {
         let left_deg = self.way_deg;
         if is_there {
             self.way_deg = 0.0;
             // Only an axis that comes back has overshot without another motion.
             let (class, past_deg) = (self.class(), std::mem::take(&mut self.past_deg));
-            if let Some(seen_deg) = self.known.seen_deg.get_mut(class) {
+            if let Some(seen_deg) = self.past_ends.seen_deg.get_mut(class) {
                 *seen_deg = seen_deg.max(past_deg);
             }
         }
-        let since = *self.since.get_or_insert(at);
+        let start = *self.window_start.get_or_insert(time);
         self.has_reached |= is_there;
-        if at.saturating_duration_since(since) > WINDOW {
+        if time.saturating_duration_since(start) > WINDOW {
             let class = self.class();
             // An axis that hunts around one end proves its overshoot only once.
             let shows = std::mem::take(&mut self.has_reached) && self.was_commanded;
-            if let Some(windows) = self.known.windows.get_mut(class).filter(|_| shows) {
+            if let Some(windows) = self.past_ends.windows.get_mut(class).filter(|_| shows) {
                 *windows = windows.saturating_add(1);
                 self.was_commanded = false;
             }
-            self.since = Some(at);
+            self.window_start = Some(time);
             let [now_deg, _] = self.left_deg;
             self.left_deg = [0.0, now_deg];
         }
@@ -98,21 +98,21 @@ impl RunsPast {
 
     fn class(&self) -> usize {
         let longest_deg = self.left_deg.into_iter().fold(0.0, f64::max);
-        let longest_deg = if self.since.is_some() { longest_deg } else { f64::INFINITY };
-        let class = LENGTHS_DEG.iter().position(|most| longest_deg <= *most).unwrap_or_default();
+        let longest_deg = if self.window_start.is_some() { longest_deg } else { f64::INFINITY };
+        let class = LENGTHS_DEG.iter().position(|max| longest_deg <= *max).unwrap_or_default();
         if self.are_steps { class + LENGTHS_DEG.len() } else { class }
     }
 
     /// Records a rate between two readings, degrees a second.
     pub(super) fn turned(&mut self, rate_deg_s: f64) {
-        self.known.fastest_deg_s = self.known.fastest_deg_s.max(rate_deg_s);
-        self.known.turns = self.known.turns.saturating_add(1);
+        self.past_ends.fastest_deg_s = self.past_ends.fastest_deg_s.max(rate_deg_s);
+        self.past_ends.turns = self.past_ends.turns.saturating_add(1);
     }
 
     /// Returns the max rate of the axis, degrees a second.
-    pub(super) fn most_deg_s(&self) -> f64 {
-        if self.known.knows_rate() {
-            (self.known.fastest_deg_s * 1.3).min(FASTEST_DEG_S)
+    pub(super) fn max_deg_s(&self) -> f64 {
+        if self.past_ends.knows_rate() {
+            (self.past_ends.fastest_deg_s * 1.3).min(FASTEST_DEG_S)
         } else {
             FASTEST_DEG_S
         }
@@ -129,46 +129,46 @@ impl RunsPast {
     }
 
     /// Returns the max overshoot past the end of the current motion, degrees.
-    pub(super) fn most_deg(&self) -> f64 {
-        if !self.known.knows_class(self.class()) {
+    pub(super) fn max_deg(&self) -> f64 {
+        if !self.past_ends.knows_class(self.class()) {
             return self.coasts_deg();
         }
-        (self.known.furthest_deg() * MARGIN).max(self.most_deg_s() * RUNS_S).min(RUNS_PAST_DEG)
+        (self.past_ends.furthest_deg() * MARGIN).max(self.max_deg_s() * RUNS_S).min(RUNS_PAST_DEG)
     }
 
     /// Returns the max coasting distance from the full rate, degrees.
     pub(super) fn coasts_deg(&self) -> f64 {
-        (self.most_deg_s() * COASTS_S).min(RUNS_PAST_DEG)
+        (self.max_deg_s() * COASTS_S).min(RUNS_PAST_DEG)
     }
 }
 
 /// Records the time from a command until the axis turned.
-pub(super) fn note_start(known: &mut DeadTime, lasted: Duration) {
-    known.longest_s = known.longest_s.max(lasted.as_secs_f64());
-    known.starts = known.starts.saturating_add(1);
+pub(super) fn note_start(dead_time: &mut DeadTime, lasted: Duration) {
+    dead_time.longest_s = dead_time.longest_s.max(lasted.as_secs_f64());
+    dead_time.starts = dead_time.starts.saturating_add(1);
 }
 
 /// Returns the max time until the drive obeys a command.
-pub(super) fn max_dead_time(known: DeadTime) -> Duration {
-    if known.starts < STARTS {
+pub(super) fn max_dead_time(dead_time: DeadTime) -> Duration {
+    if dead_time.starts < STARTS {
         return DEAD_TIME;
     }
-    let longest = Duration::try_from_secs_f64(known.longest_s * 1.25).unwrap_or(DEAD_TIME);
+    let longest = Duration::try_from_secs_f64(dead_time.longest_s * 1.25).unwrap_or(DEAD_TIME);
     longest.saturating_add(SPARE).min(DEAD_TIME)
 }
 
 /// Spread of the readings of a standing axis.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Spread {
-    pub(super) known: AtRest,
+    pub(super) at_rest: AtRest,
     /// Lowest and highest reading since the axis stands, degrees, and number of readings.
     now: Option<(f64, f64, u16)>,
     has_turned: bool,
 }
 
 impl Spread {
-    pub(super) fn new(known: AtRest) -> Self {
-        Self { known, ..Self::default() }
+    pub(super) fn new(at_rest: AtRest) -> Self {
+        Self { at_rest, ..Self::default() }
     }
 
     /// Takes a reading of an axis that stands.
@@ -178,11 +178,11 @@ impl Spread {
         self.now = Some((from_deg, to_deg, readings + 1));
         if readings + 1 >= READINGS {
             let spread_deg = to_deg - from_deg;
-            self.known.widest_deg =
-                Some(self.known.widest_deg.map_or(spread_deg, |deg| deg.max(spread_deg)));
+            self.at_rest.widest_deg =
+                Some(self.at_rest.widest_deg.map_or(spread_deg, |deg| deg.max(spread_deg)));
             self.now = None;
             if std::mem::take(&mut self.has_turned) {
-                self.known.places = self.known.places.saturating_add(1);
+                self.at_rest.places = self.at_rest.places.saturating_add(1);
             }
         }
     }
@@ -194,7 +194,7 @@ impl Spread {
     /// Returns the largest expected difference between two readings of a standing axis, degrees;
     /// `None` until it has been measured.
     pub(super) fn expected_deg(&self) -> Option<f64> {
-        self.known.widest_deg.map(|widest_deg| (widest_deg * SPREADS).min(MAX_NOISE_DEG))
+        self.at_rest.widest_deg.map(|widest_deg| (widest_deg * SPREADS).min(MAX_NOISE_DEG))
     }
 
     /// Returns the max error of a reading, degrees, for a unit that reports steps of
@@ -202,9 +202,9 @@ impl Spread {
     pub(super) fn error_deg(&self, resolution_deg: f64) -> f64 {
         let half_step_deg = resolution_deg / 2.0;
         // At places not yet observed, the noise may reach one more step.
-        let step_deg = if self.known.places < PLACES { half_step_deg } else { 0.0 };
+        let step_deg = if self.at_rest.places < PLACES { half_step_deg } else { 0.0 };
         let seen_deg =
-            self.known.widest_deg.map(|deg| (deg / 2.0 * SPREADS).max(deg / 2.0 + step_deg));
+            self.at_rest.widest_deg.map(|deg| (deg / 2.0 * SPREADS).max(deg / 2.0 + step_deg));
         let error_deg = seen_deg.unwrap_or(half_step_deg + NOISE_DEG);
         error_deg.clamp(half_step_deg, half_step_deg + MAX_NOISE_DEG) + resolution_deg * 0.05
     }

@@ -8,7 +8,7 @@ pub(super) struct Range {
 }
 
 impl Range {
-    pub(super) fn about(deg: f64, error_deg: f64) -> Self {
+    pub(super) fn with_error(deg: f64, error_deg: f64) -> Self {
         Self { from_deg: deg - error_deg, to_deg: deg + error_deg }
     }
 
@@ -17,7 +17,7 @@ impl Range {
     }
 
     /// Returns the intersection; `None` if the ranges do not overlap.
-    pub(super) fn within(self, other: Self) -> Option<Self> {
+    pub(super) fn overlap(self, other: Self) -> Option<Self> {
         let from_deg = self.from_deg.max(other.from_deg);
         let to_deg = self.to_deg.min(other.to_deg);
         (from_deg <= to_deg).then_some(Self { from_deg, to_deg })

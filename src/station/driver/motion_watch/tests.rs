@@ -54,7 +54,7 @@ impl Scene {
         let mut dice = Dice::new(seed);
         let kind = Kind::any(&mut dice);
         let (from_deg, to_deg) = kind.travel_deg;
-        let plant = Plant::new(kind, dice.between(from_deg, to_deg));
+        let plant = Plant::new(kind, dice.draw(from_deg, to_deg));
         Self {
             plant,
             watch: MotionWatch::new([kind.figures(); 2], &[AxisLessons::default(); 2]),
@@ -79,12 +79,12 @@ impl Scene {
         self.answers.clear();
     }
 
-    fn at(&self, at_s: f64) -> Instant {
+    fn time_at(&self, at_s: f64) -> Instant {
         self.began + Duration::try_from_secs_f64(at_s).unwrap()
     }
 
     fn now(&self) -> Instant {
-        self.at(self.plant.now_s)
+        self.time_at(self.plant.now_s)
     }
 
     fn send(&mut self, order: Order) {
@@ -104,7 +104,7 @@ impl Scene {
         if let Some(lead) = lead {
             self.watch.commanded([Some(lead), None], now);
             let is_answered = self.dice.chance(0.95);
-            let after_s = self.dice.between(0.01, 0.6);
+            let after_s = self.dice.draw(0.01, 0.6);
             self.answers.push((self.plant.now_s + after_s, is_answered));
             self.stops = false;
         } else {
@@ -127,8 +127,8 @@ impl Scene {
         }
         if self.question.is_none() && now_s >= self.next_s {
             let late_s = if self.dice.chance(0.02) { 1.5 } else { 0.3 };
-            let takes_s = self.dice.between(0.01, late_s);
-            let measured_s = now_s + self.dice.between(0.0, takes_s);
+            let takes_s = self.dice.draw(0.01, late_s);
+            let measured_s = now_s + self.dice.draw(0.0, takes_s);
             self.question = Some((now_s, measured_s, now_s + takes_s));
             self.next_s = now_s + self.plant.kind.poll_s;
         }
@@ -146,16 +146,16 @@ impl Scene {
         }
         let is_turning = self.plant.is_driven() || self.is_flagged;
         let motion = if is_turning { AxisMotion::Unknown(1) } else { AxisMotion::Still };
-        let (asked, received) = (self.at(asked_s), self.at(received_s));
+        let (requested, received) = (self.time_at(asked_s), self.time_at(received_s));
         let drive = if is_turning { Drive::On } else { Drive::Off };
-        let reading = AxisReading { angle_deg, motion, drive, asked, received };
+        let reading = AxisReading { angle_deg, motion, drive, requested, received };
         if let Some(foreign) = self.watch.take([Some(reading), None]) {
             self.found.push((now_s, foreign.evidence));
         }
         // Equal readings prove standstill.
         if self.stops && now_s - asked_s + 1.0 < self.still_s {
             self.stops = false;
-            let proved = self.at(now_s);
+            let proved = self.time_at(now_s);
             self.watch.proved_still(proved);
         }
     }
@@ -185,7 +185,7 @@ impl Scene {
 
     fn any_deg(&mut self) -> f64 {
         let (from_deg, to_deg) = self.plant.kind.travel_deg;
-        self.dice.between(from_deg + 3.0, to_deg - 3.0)
+        self.dice.draw(from_deg + 3.0, to_deg - 3.0)
     }
 
     fn any_slew(&mut self) {
@@ -198,8 +198,8 @@ impl Scene {
     /// Returns the last target and its rate, degrees a second.
     fn track(&mut self, seconds: f64) -> (f64, f64) {
         let (from_deg, to_deg) = self.plant.kind.travel_deg;
-        let most_deg_s = (self.plant.kind.rate_deg_s * 0.6).min(2.0);
-        let mut rate_deg_s = self.dice.between(-1.0, 1.0) * most_deg_s;
+        let max_deg_s = (self.plant.kind.rate_deg_s * 0.6).min(2.0);
+        let mut rate_deg_s = self.dice.draw(-1.0, 1.0) * max_deg_s;
         let mut target_deg = self.plant.deg;
         let end_s = self.plant.now_s + seconds;
         while self.plant.now_s < end_s {
@@ -221,26 +221,26 @@ impl Scene {
             2 => {
                 let deg = self.any_deg();
                 self.send(Order::To(deg));
-                let after_s = self.dice.between(0.0, 10.0);
+                let after_s = self.dice.draw(0.0, 10.0);
                 self.seconds(after_s);
                 self.stop();
             }
             3 => {
                 let share = if self.dice.chance(0.5) { 1.0 } else { -1.0 };
                 self.send(Order::Run(share));
-                let after_s = self.dice.between(0.1, 8.0);
+                let after_s = self.dice.draw(0.1, 8.0);
                 self.seconds(after_s);
                 self.stop();
             }
             4 => {
-                let seconds = self.dice.between(20.0, 200.0);
+                let seconds = self.dice.draw(20.0, 200.0);
                 self.track(seconds);
             }
             5 => {
                 // Send a new target before the axis arrives.
                 let (deg, other_deg) = (self.any_deg(), self.any_deg());
                 self.send(Order::To(deg));
-                let after_s = self.dice.between(0.0, 10.0);
+                let after_s = self.dice.draw(0.0, 10.0);
                 self.seconds(after_s);
                 self.send(Order::To(other_deg));
                 self.until_still();
@@ -250,7 +250,7 @@ impl Scene {
                     let deg = self.any_deg();
                     self.send(Order::To(deg));
                 }
-                self.away_until_s = self.plant.now_s + self.dice.between(1.0, 30.0);
+                self.away_until_s = self.plant.now_s + self.dice.draw(1.0, 30.0);
                 self.seconds(31.0);
             }
         }
@@ -285,13 +285,9 @@ struct Push {
 impl Push {
     fn any(scene: &mut Scene, way: f64) -> Self {
         let Kind { step_deg, noise_deg, sway_deg, .. } = scene.plant.kind;
-        let least_deg = 2.5 * step_deg + 2.0 * noise_deg + sway_deg;
-        let by_deg = (least_deg + scene.dice.between(0.0, 30.0)) * way;
-        Self {
-            by_deg,
-            rate_deg_s: scene.dice.between(2.0, 20.0),
-            holds_s: scene.dice.between(3.0, 20.0),
-        }
+        let min_deg = 2.5 * step_deg + 2.0 * noise_deg + sway_deg;
+        let by_deg = (min_deg + scene.dice.draw(0.0, 30.0)) * way;
+        Self { by_deg, rate_deg_s: scene.dice.draw(2.0, 20.0), holds_s: scene.dice.draw(3.0, 20.0) }
     }
 
     /// Applies the push. Returns the time until the watch finds it, seconds.
@@ -397,9 +393,9 @@ fn one_that_is_pushed_far_in_a_track_is_found_within_fifteen_seconds() {
 fn evidence_from(watch: &mut MotionWatch, start: Instant, drives: &[Drive]) -> Vec<Evidence> {
     let mut found = Vec::new();
     for (second, drive) in (1..).zip(drives) {
-        let asked = start + Duration::from_secs(second);
-        let (motion, received) = (AxisMotion::Still, asked + Duration::from_millis(50));
-        let reading = AxisReading { angle_deg: 10.0, motion, drive: *drive, asked, received };
+        let requested = start + Duration::from_secs(second);
+        let (motion, received) = (AxisMotion::Still, requested + Duration::from_millis(50));
+        let reading = AxisReading { angle_deg: 10.0, motion, drive: *drive, requested, received };
         found.extend(watch.take([Some(reading), None]).map(|foreign| foreign.evidence));
     }
     found

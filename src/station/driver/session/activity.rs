@@ -53,7 +53,7 @@ pub(super) enum SlewStage {
 pub(super) struct Leg {
     pub(super) aim: Pointing,
     /// Next motion; `None` after a lost link ended the path at this position.
-    pub(super) then: Option<Motion>,
+    pub(super) next: Option<Motion>,
 }
 
 pub(super) struct OnBoardTrack {
@@ -244,7 +244,7 @@ impl Activity {
         if let Some(Slew { stage: SlewStage::UnderWay { leg: Some(leg), .. }, .. }) =
             self.slew_mut()
         {
-            leg.then = None;
+            leg.next = None;
         }
     }
 }
@@ -271,10 +271,10 @@ impl Slew {
     }
 
     /// Returns `false` if the first motion leads to the current position.
-    pub(super) fn leads_on(&self, at: Pointing, within: Angle) -> bool {
+    pub(super) fn leads_on(&self, position: Pointing, tolerance: Angle) -> bool {
         match self.stage {
             SlewStage::Queued { leg: Some(Leg { aim, .. }), .. } => {
-                at.deviation(aim).is_none_or(|off| off > within)
+                position.deviation(aim).is_none_or(|deviation| deviation > tolerance)
             }
             SlewStage::Queued { leg: None, .. } | SlewStage::UnderWay { .. } | SlewStage::Over => {
                 true
@@ -282,27 +282,27 @@ impl Slew {
         }
     }
 
-    /// Compares the running motion with a position requested at `asked`, at which the unit's flags
-    /// reported standstill. `turned`: time of the last change of the angles.
+    /// Compares the running motion with a position requested at `requested`, at which the unit's
+    /// flags reported standstill. `turned`: time of the last change of the angles.
     pub(super) fn watch(
         &mut self,
-        at: Pointing,
-        asked: Instant,
+        position: Pointing,
+        requested: Instant,
         turned: Option<Instant>,
-        within: Angle,
+        tolerance: Angle,
         now: Instant,
     ) -> Option<Arrival> {
         let SlewStage::UnderWay { begun, leg } = self.stage else { return None };
         let (aim, end) = (self.aim_under_way()?, self.aim?);
-        if asked <= begun {
+        if requested <= begun {
             return None;
         }
         // A motion continues while its angles change, even if the flags report standstill.
         let last_turn = turned.map_or(begun, |turned| turned.max(begun));
-        let is_near = at.deviation(aim).is_some_and(|off| off <= within);
+        let is_near = position.deviation(aim).is_some_and(|deviation| deviation <= tolerance);
         let arrival = match leg {
-            Some(Leg { then: Some(then), .. }) if is_near => Arrival::Leg(then),
-            Some(Leg { then: None, .. }) if is_near => Arrival::Short { aim: end },
+            Some(Leg { next: Some(next), .. }) if is_near => Arrival::Leg(next),
+            Some(Leg { next: None, .. }) if is_near => Arrival::Short { aim: end },
             None if is_near => Arrival::At(aim),
             _ if now.saturating_duration_since(last_turn) >= EFFECT => Arrival::Short { aim: end },
             _ => return None,
@@ -320,13 +320,13 @@ mod tests {
     #[test]
     fn a_way_that_begins_at_the_corner_where_the_antenna_stands_leads_on_nowhere() {
         let aimed = |azimuth_deg| Pointing::from(AzEl::from_degrees(azimuth_deg, 20.0));
-        let then = Motion::Position { azimuth: Some(Angle::from_degrees(200.0)), elevation: None };
+        let next = Motion::Position { azimuth: Some(Angle::from_degrees(200.0)), elevation: None };
         let slew =
-            |leg| Slew { aim: Some(aimed(200.0)), stage: SlewStage::Queued { motion: then, leg } };
-        let round_a_corner = slew(Some(Leg { aim: aimed(100.0), then: Some(then) }));
-        let within = Angle::from_degrees(0.5);
-        assert!(!round_a_corner.leads_on(aimed(100.2), within));
-        assert!(round_a_corner.leads_on(aimed(99.0), within));
-        assert!(slew(None).leads_on(aimed(199.9), within), "the last motion may be a short one");
+            |leg| Slew { aim: Some(aimed(200.0)), stage: SlewStage::Queued { motion: next, leg } };
+        let round_a_corner = slew(Some(Leg { aim: aimed(100.0), next: Some(next) }));
+        let tolerance = Angle::from_degrees(0.5);
+        assert!(!round_a_corner.leads_on(aimed(100.2), tolerance));
+        assert!(round_a_corner.leads_on(aimed(99.0), tolerance));
+        assert!(slew(None).leads_on(aimed(199.9), tolerance), "the last motion may be a short one");
     }
 }

@@ -29,8 +29,8 @@ pub(super) enum NextStep {
 
 impl AutoTrackOff {
     /// Records the time of a request; `None` for a new link without a request.
-    pub(super) fn asked(&mut self, at: Option<Instant>) {
-        self.asked_at = at;
+    pub(super) fn record_request(&mut self, time: Option<Instant>) {
+        self.asked_at = time;
     }
 
     pub(super) fn is_first_report(&mut self) -> bool {

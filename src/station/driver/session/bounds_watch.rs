@@ -42,21 +42,21 @@ impl Session {
         let turns_unseen = self.turns_unseen(&look, intervals);
         let is_moving = rates.iter().any(|rate| rate.abs() > SLOWEST_DEG_S) || turns_unseen;
         let ahead_s = self.gate.ahead_s(now);
-        let there = self.reached(intervals, rates, turns_unseen, ahead_s);
+        let next = self.reached(intervals, rates, turns_unseen, ahead_s);
         let bounds = self.bounds_now().at_time(now.utc).turned_by(self.gate.to_sky());
-        let [from, to] = [here, there].map(|place| bounds.min_clearances(place));
+        let [starts, ends] = [here, next].map(|place| bounds.min_clearances(place));
         let is_known = intervals.unknown().is_none();
         // A position with an unknown angle is surely inside a barrier only if it is inside at every
         // possible angle.
         let surely = (!is_known).then(|| bounds.holds_all_of(here));
         // A search from every place in a range would delay the other antennas of this thread.
         let way_deg = |place| is_known.then(|| bounds.way_out_deg(place)).flatten();
-        let ways_deg = [here, there].map(way_deg);
-        for (index, (from, to)) in from.into_iter().zip(to).enumerate() {
+        let ways_deg = [here, next].map(way_deg);
+        for (index, (here, next)) in starts.into_iter().zip(ends).enumerate() {
             // If no single axis leads out, compare the depths inside each barrier.
             let deeper_deg = match ways_deg {
-                [Some(here_deg), Some(there_deg)] => there_deg - here_deg,
-                _ => from.angle.degrees() - to.angle.degrees(),
+                [Some(here_deg), Some(next_deg)] => next_deg - here_deg,
+                _ => here.angle.degrees() - next.angle.degrees(),
             };
             let goes_deeper = is_moving && deeper_deg > NOISE_DEG;
             let certainty = match &surely {
@@ -64,7 +64,7 @@ impl Session {
                 Some(surely) if surely.get(index) == Some(&true) => Certainty::Inside,
                 Some(_) => Certainty::Unknown,
             };
-            self.judge(from, &to, certainty, is_moving, goes_deeper, now);
+            self.judge(here, &next, certainty, is_moving, goes_deeper, now);
         }
     }
 
@@ -97,8 +97,8 @@ impl Session {
         let here = intervals.sweep().turned(ahead_deg);
         let unseen_deg =
             if turns_unseen { self.setup.track_config().fastest_deg_s() * ahead_s } else { 0.0 };
-        let widen = |(from, to): (f64, f64), axis: Interval| {
-            if axis.is_known { (from, to) } else { (from - unseen_deg, to + unseen_deg) }
+        let widen = |(min, max): (f64, f64), axis: Interval| {
+            if axis.is_known { (min, max) } else { (min - unseen_deg, max + unseen_deg) }
         };
         let (Sweep([first, second]), Intervals([first_axis, second_axis])) = (here, intervals);
         Sweep([widen(first, first_axis), widen(second, second_axis)])
@@ -107,7 +107,7 @@ impl Session {
     fn judge(
         &mut self,
         here: Clearance,
-        there: &Clearance,
+        next: &Clearance,
         certainty: Certainty,
         is_moving: bool,
         goes_deeper: bool,
@@ -116,8 +116,7 @@ impl Session {
         let arrives_within_deg = self.setup.can().arrives_within_deg;
         let is_floor = here.barrier == Barrier::MinimumElevation;
         let dip_deg = if is_floor { DIP_DEG + arrives_within_deg } else { 0.0 };
-        let (here_deg, there_deg) =
-            (here.angle.degrees() + dip_deg, there.angle.degrees() + dip_deg);
+        let (here_deg, next_deg) = (here.angle.degrees() + dip_deg, next.angle.degrees() + dip_deg);
         let driver = self.mover();
         let is_inside = match certainty {
             Certainty::Known => here_deg < 0.0,
@@ -128,7 +127,7 @@ impl Session {
         };
         // A program slows down at the start of its pass; the readings show whether it does.
         let ends_there = driver == Mover::Program && here.barrier == Barrier::MinimumElevation;
-        let enters = is_moving && !is_inside && there_deg < 0.0 && !ends_there;
+        let enters = is_moving && !is_inside && next_deg < 0.0 && !ends_there;
         let goes_deeper = is_inside && goes_deeper;
         let is_reported = self.observed.monitor.is_reported(&here.barrier);
         if !is_inside && !enters {

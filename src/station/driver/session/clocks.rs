@@ -11,7 +11,7 @@ const NAP: Duration = Duration::from_secs(1);
 
 #[derive(Debug, Clone, Copy)]
 struct Clocks {
-    at: Moment,
+    moment: Moment,
     asleep: Duration,
 }
 
@@ -35,12 +35,12 @@ pub(super) struct ClockChange {
 impl ClockWatch {
     /// Compares the clocks with their last values. `asleep`: total sleep of the computer.
     pub(super) fn compare(&mut self, now: Moment, asleep: Duration) -> Option<ClockChange> {
-        let before = self.last.replace(Clocks { at: now, asleep })?;
+        let before = self.last.replace(Clocks { moment: now, asleep })?;
         let slept = asleep.saturating_sub(before.asleep);
-        let steady = now.steady.saturating_duration_since(before.at.steady);
+        let steady = now.steady.saturating_duration_since(before.moment.steady);
         // The steady clock pauses while the computer sleeps.
         let expected_s = (steady + slept).as_secs_f64();
-        let by_s = seconds_between(before.at.utc, now.utc) - expected_s;
+        let by_s = seconds_between(before.moment.utc, now.utc) - expected_s;
         Some(ClockChange {
             steady,
             stepped_s: Some(by_s).filter(|by_s| by_s.abs() > STEP_S),
@@ -59,19 +59,19 @@ mod tests {
     #[test]
     fn a_clock_that_was_set_and_a_sleep_are_told_apart() {
         let start = Instant::now();
-        let at = |steady_s: f64, utc_s: f64| Moment {
+        let moment = |steady_s: f64, utc_s: f64| Moment {
             steady: start + Duration::try_from_secs_f64(steady_s).unwrap(),
             utc: add_seconds(Timestamp::UNIX_EPOCH, utc_s),
         };
         let look = |now, asleep_s: u64| {
             let mut clocks = ClockWatch::default();
-            assert!(clocks.compare(at(0.0, 0.0), Duration::ZERO).is_none(), "the first look");
+            assert!(clocks.compare(moment(0.0, 0.0), Duration::ZERO).is_none(), "the first look");
             let change = clocks.compare(now, Duration::from_secs(asleep_s)).unwrap();
             (change.stepped_s.map(f64::round), change.slept)
         };
-        assert_eq!(look(at(10.0, 10.2), 0), (None, None));
-        assert_eq!(look(at(10.0, 70.0), 0), (Some(60.0), None));
-        assert_eq!(look(at(10.0, 70.0), 60), (None, Some(Duration::from_mins(1))));
-        assert_eq!(look(at(10.0, 10.0), 60), (Some(-60.0), Some(Duration::from_mins(1))));
+        assert_eq!(look(moment(10.0, 10.2), 0), (None, None));
+        assert_eq!(look(moment(10.0, 70.0), 0), (Some(60.0), None));
+        assert_eq!(look(moment(10.0, 70.0), 60), (None, Some(Duration::from_mins(1))));
+        assert_eq!(look(moment(10.0, 10.0), 60), (Some(-60.0), Some(Duration::from_mins(1))));
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{
     Session,
     activity::{Activity, GoTo, Leg, OnBoardStage, OnBoardTrack, Queued, Slew, SlewStage},
-    contact::Wanted,
+    contact::LinkNeed,
 };
 use crate::{
     clock::Moment,
@@ -84,7 +84,7 @@ impl Session {
                 let motion = self.setup.park_motion();
                 self.go_to(motion, Intent::Park, now);
             }
-            Command::Preview(to) => self.commanded.preview = to,
+            Command::Preview(target) => self.commanded.preview = target,
             Command::Track(pass) => self.track(*pass, now),
             Command::TakeOver => self.take_over(now),
             Command::ProgramTrack(follow) => self.follow_as_agreed(*follow, false, now),
@@ -108,7 +108,7 @@ impl Session {
             Command::Ask(question) => self.gate.device().ask(&question),
             Command::Act(act) => self.act(act, false, now),
             Command::ActUnseen(act) => self.act(act, true, now),
-            Command::Connect => self.contact.want(Wanted::Yes),
+            Command::Connect => self.contact.want(LinkNeed::Yes),
             // The I/O loop handles this command.
             Command::Disconnect => {}
         }
@@ -178,8 +178,8 @@ impl Session {
         let motion = self.gate.nearest(motion)?;
         let route = self.gate.route(motion, intent, now).map_err(NoRoute::refusal)?;
         let first_aim = self.gate.aim(&route.first);
-        let leg = first_aim.filter(|_| route.then.is_some());
-        let leg = leg.map(|aim| Leg { aim, then: route.then });
+        let leg = first_aim.filter(|_| route.second.is_some());
+        let leg = leg.map(|aim| Leg { aim, next: route.second });
         let stage = SlewStage::Queued { motion: route.first, leg };
         Ok(Slew { aim: self.gate.aim(&motion), stage })
     }
@@ -277,8 +277,8 @@ impl Session {
             // The session reads a group after the link is back, if the window shows it. The link
             // state shows that no query is possible. The I/O loop handles a disconnect.
             Command::ReadGroup(_) | Command::Ask(_) | Command::Disconnect => {}
-            Command::Preview(to) => self.commanded.preview = to,
-            Command::Connect => self.contact.want(Wanted::Yes),
+            Command::Preview(target) => self.commanded.preview = target,
+            Command::Connect => self.contact.want(LinkNeed::Yes),
             Command::LockOut(lock_out) => self.lock_out(lock_out, now),
             Command::Unlock => self.unlock(),
             // The link state shows the failure; the window locks the keys anyway.

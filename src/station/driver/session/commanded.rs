@@ -21,7 +21,7 @@ struct Step {
 /// Motion with a lost answer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Doubt {
-    pub(super) asked: MotionRequest,
+    pub(super) request: MotionRequest,
     begun: Instant,
     /// Angles of the two axes before the motion, degrees.
     pub(super) before_deg: Option<[f64; 2]>,
@@ -129,11 +129,11 @@ impl Commanded {
     /// Records a motion with a lost answer.
     pub(super) fn doubt(
         &mut self,
-        asked: MotionRequest,
+        request: MotionRequest,
         before_deg: Option<[f64; 2]>,
         now: Instant,
     ) {
-        self.doubt = Some(Doubt { asked, begun: now, before_deg });
+        self.doubt = Some(Doubt { request, begun: now, before_deg });
     }
 
     pub(super) fn is_in_doubt(&self) -> bool {

@@ -17,7 +17,7 @@ const LATE_REPLY: Duration = Duration::from_secs(1);
 const HEARD: Duration = Duration::from_secs(30);
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Wanted {
+pub(super) enum LinkNeed {
     No,
     /// Link only for a STOP: the session releases the unit once standstill is proved.
     ForStop,
@@ -43,7 +43,7 @@ pub(super) struct Outage {
 /// State of the link, and the memory across outages.
 pub(super) struct Contact {
     dial: Dial,
-    wanted: Wanted,
+    need: LinkNeed,
     link: LinkState,
     /// Time of the loss of an established link.
     away_since: Option<Instant>,
@@ -61,20 +61,20 @@ pub(super) struct Contact {
 }
 
 /// Returns the initial link request of a new session, and its initial link state.
-pub(super) fn first_link(antenna: &Antenna, now: Instant) -> (Wanted, LinkState) {
+pub(super) fn first_link(antenna: &Antenna, now: Instant) -> (LinkNeed, LinkState) {
     let waits = antenna.connection.variant().capabilities.waits_for_word;
     if waits && !antenna.connects_at_start {
-        return (Wanted::No, LinkState::Off);
+        return (LinkNeed::No, LinkState::Off);
     }
-    (Wanted::Yes, LinkState::Connecting { start: now })
+    (LinkNeed::Yes, LinkState::Connecting { start: now })
 }
 
 impl Contact {
     pub(super) fn new(antenna: &Antenna, dial: Dial, now: Instant) -> Self {
-        let (wanted, link) = first_link(antenna, now);
+        let (need, link) = first_link(antenna, now);
         Self {
             dial,
-            wanted,
+            need,
             link,
             away_since: None,
             loss_is_reported: false,
@@ -92,12 +92,12 @@ impl Contact {
         (self.dial)()
     }
 
-    pub(super) fn wanted(&self) -> Wanted {
-        self.wanted
+    pub(super) fn link_need(&self) -> LinkNeed {
+        self.need
     }
 
-    pub(super) fn want(&mut self, wanted: Wanted) {
-        self.wanted = wanted;
+    pub(super) fn want(&mut self, need: LinkNeed) {
+        self.need = need;
     }
 
     pub(super) fn link(&self) -> &LinkState {
@@ -152,10 +152,10 @@ impl Contact {
         is_news
     }
 
-    /// Moves the next attempt to `at`.
-    pub(super) fn retry_at(&mut self, at: Instant) {
+    /// Moves the next attempt to `time`.
+    pub(super) fn retry_at(&mut self, time: Instant) {
         if let LinkState::Lost { retry_at, .. } = &mut self.link {
-            *retry_at = at;
+            *retry_at = time;
         }
     }
 
@@ -203,19 +203,19 @@ impl Contact {
             let is_unreadable = state.traffic.last_unreadable.is_some_and(|noise| {
                 // Not every attempt hears as much noise.
                 let is_young = now.saturating_duration_since(noise) < HEARD;
-                noise > last || self.away_since.is_some_and(|away| noise > away && is_young)
+                noise > last || self.away_since.is_some_and(|lost| noise > lost && is_young)
             });
             return Some(if is_unreadable { LinkLoss::Unreadable } else { LinkLoss::Silent });
         }
         // A single reply may get lost, so one poll period without a reply is normal.
         let max_age = pace.poll_period * 2;
-        let asked = state.measured_on_link().map(|measured| measured.requested);
+        let requested = state.measured_on_link().map(|measured| measured.requested);
         // The age of a position starts at its query, and the reply may be late.
-        let is_old = |asked| now.saturating_duration_since(asked) > max_age + LATE_REPLY;
-        let is_late = age > max_age || asked.is_some_and(is_old);
+        let is_old = |requested| now.saturating_duration_since(requested) > max_age + LATE_REPLY;
+        let is_late = age > max_age || requested.is_some_and(is_old);
         match (&self.link, is_late) {
             (LinkState::Up { .. } | LinkState::Stale { .. }, true) => {
-                let as_of = asked.map_or(last, |asked| asked.min(last));
+                let as_of = requested.map_or(last, |requested| requested.min(last));
                 self.link = LinkState::Stale { as_of };
             }
             (LinkState::Stale { .. }, false) => self.link = LinkState::Up { start },
@@ -228,12 +228,12 @@ impl Contact {
     /// Returns the time at which the age of the last reply changes the link state.
     pub(super) fn due(&self, state: &AntennaState, pace: Pace) -> Option<Instant> {
         let last = state.traffic.last_reply.max(state.link_since)?;
-        let asked = state.measured_on_link().map(|measured| measured.requested + LATE_REPLY);
+        let requested = state.measured_on_link().map(|measured| measured.requested + LATE_REPLY);
         let wait = match self.link {
             // A link becomes stale only beyond its limit, not at the limit itself.
             LinkState::Up { .. } => pace.poll_period * 2 + Duration::from_millis(1),
             _ => return Some(last + pace.patience),
         };
-        Some(asked.map_or(last, |asked| asked.min(last)) + wait)
+        Some(requested.map_or(last, |requested| requested.min(last)) + wait)
     }
 }

@@ -108,13 +108,13 @@ impl Wraps {
 }
 
 impl Effect {
-    fn take(&mut self, angle_deg: Option<f64>, at: Instant, figures: Figures) {
+    fn take(&mut self, angle_deg: Option<f64>, time: Instant, figures: Figures) {
         let Some(angle_deg) = angle_deg else { return };
         let is_new =
             self.changed.is_none_or(|(before_deg, _)| !figures.are_same_deg(before_deg, angle_deg));
         if is_new {
             self.has_turned |= self.changed.is_some();
-            self.changed = Some((angle_deg, at));
+            self.changed = Some((angle_deg, time));
         }
     }
 
@@ -122,7 +122,7 @@ impl Effect {
     fn is_missing(
         &mut self,
         expected: Option<Expected>,
-        at: Instant,
+        time: Instant,
         figures: Figures,
         shows_after: Duration,
     ) -> bool {
@@ -130,9 +130,9 @@ impl Effect {
             (self.expected_since, self.has_turned) = (None, false);
             return false;
         };
-        let begun = *self.expected_since.get_or_insert(at);
+        let begun = *self.expected_since.get_or_insert(time);
         let Some((_, changed)) = self.changed else { return false };
-        let waited = at.saturating_duration_since(begun.max(changed));
+        let waited = time.saturating_duration_since(begun.max(changed));
         match expected {
             Expected::Rate(rate_deg_s) => {
                 let turning_s = waited.saturating_sub(JOG_SHOWS_AFTER).as_secs_f64();

@@ -4,7 +4,7 @@ use std::{io, time::Duration};
 
 use tokio::io::{AsyncReadExt, AsyncWriteExt, ReadHalf, WriteHalf};
 
-use super::{Session, contact::Wanted, wires::Input};
+use super::{Session, contact::LinkNeed, wires::Input};
 use crate::{
     clock::{Clock, Moment},
     contract::driver::{Command, Event, LinkLoss},
@@ -35,7 +35,7 @@ impl Session {
         self.look_for_mark().await;
         let mut attempt = 0;
         loop {
-            if self.contact.wanted() == Wanted::No && !self.wait_until_wanted().await {
+            if self.contact.link_need() == LinkNeed::No && !self.wait_until_wanted().await {
                 break;
             }
             if let Some(loss) = self.connect_and_talk(&mut attempt).await {
@@ -47,7 +47,7 @@ impl Session {
             }
             // The session has ended, or the operator released the unit and the session waits for a
             // command.
-            if self.contact.wanted() != Wanted::No {
+            if self.contact.link_need() != LinkNeed::No {
                 break;
             }
         }
@@ -192,7 +192,7 @@ impl Session {
         }
         self.let_sleep(now);
         // The session needed the link only for a STOP and no longer owes one.
-        if self.contact.wanted() == Wanted::ForStop && self.disconnect_after_stop() {
+        if self.contact.link_need() == LinkNeed::ForStop && self.disconnect_after_stop() {
             return false;
         }
         self.publish(now);
@@ -248,7 +248,7 @@ impl Session {
             if let Some(loss) = loss {
                 return Some(loss);
             }
-            if self.contact.wanted() == Wanted::ForStop && self.disconnect_after_stop() {
+            if self.contact.link_need() == LinkNeed::ForStop && self.disconnect_after_stop() {
                 self.publish(now);
                 self.shut_down(&mut reader, &mut writer).await;
                 return None;

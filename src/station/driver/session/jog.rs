@@ -71,9 +71,9 @@ impl Session {
     /// Returns `true` while the jog waits for a fresh position that stays valid until the next one.
     /// The gate judges the age of a missing position.
     fn awaits_young_position(&mut self, now: Moment) -> bool {
-        let asked = self.gate.state().measured.map(|measured| measured.requested);
-        match asked.map_or(PositionWait::Over, |asked| {
-            self.commanded.key.wait_for_position(asked, now.steady)
+        let requested = self.gate.state().measured.map(|measured| measured.requested);
+        match requested.map_or(PositionWait::Over, |requested| {
+            self.commanded.key.wait_for_position(requested, now.steady)
         }) {
             PositionWait::Over => false,
             PositionWait::Ask => {
@@ -87,16 +87,16 @@ impl Session {
     /// Ends a jog without renewal, or with an outdated position.
     pub(super) fn watch_jog(&mut self, now: Moment) {
         let Some(jog) = self.commanded.key.pressed() else { return };
-        let over = now.steady >= jog.end();
+        let is_over = now.steady >= jog.end();
         if !jog.is_started() {
-            if over {
+            if is_over {
                 self.commanded.key.release();
             } else {
                 self.start_jog(now);
             }
             return;
         }
-        let end = if over {
+        let end = if is_over {
             Some(Event::JogLeaseOver)
         } else if self.position_age(now).is_none_or(|age| age >= FRESH) {
             Some(Event::JogPositionOld)

@@ -154,13 +154,13 @@ impl JogKey {
         }
     }
 
-    /// Judges the last position, requested at `asked`. The gate judges the age of a missing
-    /// position.
-    pub(super) fn wait_for_position(&mut self, asked: Instant, now: Instant) -> PositionWait {
+    /// Judges the last position; `requested` is its request time. The gate judges the age of a
+    /// missing position.
+    pub(super) fn wait_for_position(&mut self, requested: Instant, now: Instant) -> PositionWait {
         let Some(jog) = self.pressed_mut() else { return PositionWait::Over };
-        let age = now.saturating_duration_since(asked);
+        let age = now.saturating_duration_since(requested);
         let waited = now.saturating_duration_since(jog.pressed_at);
-        if age < YOUNG || asked >= jog.pressed_at || waited >= PATIENCE {
+        if age < YOUNG || requested >= jog.pressed_at || waited >= PATIENCE {
             PositionWait::Over
         } else if std::mem::replace(&mut jog.has_asked, true) {
             PositionWait::Wait

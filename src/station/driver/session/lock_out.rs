@@ -1,7 +1,7 @@
 //! Locked-out unit: it receives only queries and STOP, from any requester. Before that, Azel stops
 //! the unit and keeps it from starting on its own.
 
-use super::{Session, activity::Activity, contact::Wanted, locking::LockStep};
+use super::{Session, activity::Activity, contact::LinkNeed, locking::LockStep};
 use crate::{
     clock::Moment,
     contract::driver::{Command, Event, LockedOut, Offline, Refusal},
@@ -16,7 +16,7 @@ impl Session {
             let now = self.now();
             // A query would take the panel from the person who works on the unit.
             if self.setup.can().waits_for_word {
-                self.contact.want(Wanted::No);
+                self.contact.want(LinkNeed::No);
                 self.contact.close();
             }
             self.put_lock_out(lock_out, now);
@@ -35,11 +35,11 @@ impl Session {
         }
         let may_move = self.may_move() || self.active() || self.is_unproved();
         // Somebody else may control a released unit that Azel did not move.
-        let is_left_to_others = self.contact.wanted() == Wanted::No && !self.is_unproved();
+        let is_left_to_others = self.contact.link_need() == LinkNeed::No && !self.is_unproved();
         if may_move && !is_left_to_others {
             self.halt(now);
-            if self.contact.wanted() == Wanted::No {
-                self.contact.want(Wanted::ForStop);
+            if self.contact.link_need() == LinkNeed::No {
+                self.contact.want(LinkNeed::ForStop);
             }
         }
         self.commanded.activity = Activity::Standby;
@@ -55,8 +55,8 @@ impl Session {
     /// Restricts the link to STOP if a query would take the panel of the unit from the person who
     /// works on it.
     fn leave_panel(&mut self) {
-        if self.setup.can().waits_for_word && self.contact.wanted() == Wanted::Yes {
-            self.contact.want(Wanted::ForStop);
+        if self.setup.can().waits_for_word && self.contact.link_need() == LinkNeed::Yes {
+            self.contact.want(LinkNeed::ForStop);
         }
     }
 
@@ -87,9 +87,9 @@ impl Session {
                 is_refused_here.then(|| Refusal::from(lock_out))
             }
             LockedOut::TakesPanel => {
-                let by = lock_out.operator.clone();
+                let operator = lock_out.operator.clone();
                 let takes_panel = self.setup.can().waits_for_word;
-                takes_panel.then_some(Refusal::PanelLockedOut { operator: by })
+                takes_panel.then_some(Refusal::PanelLockedOut { operator })
             }
         };
         let Some(refusal) = refusal else { return false };

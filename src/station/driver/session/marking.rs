@@ -58,7 +58,7 @@ pub(super) enum Progress {
 /// Returns `true` for a mark that needs a question to the operator.
 pub(super) fn is_old(mark: Mark, now: Timestamp) -> bool {
     // A wrong clock wrote a mark from the future, so its age is unknown.
-    mark.last_tried().is_none_or(|at| seconds_between(at, now).abs() > OLD_S)
+    mark.last_tried().is_none_or(|time| seconds_between(time, now).abs() > OLD_S)
 }
 
 impl Marking {
@@ -97,7 +97,7 @@ impl Marking {
             State::Found { begun } => (begun, now.steady, false),
             State::Put { begun, first, is_reported, .. } => (begun, first, is_reported),
         };
-        debts.mark(Mark { since: begun, tried: Some(now.utc) });
+        debts.mark(Mark { start: begun, tried: Some(now.utc) });
         self.0 = State::Put { begun, first, last: now.steady, is_reported };
     }
 

@@ -70,8 +70,8 @@ fn is_driven(axis: Axis, rate_deg_s: f64) -> bool {
 }
 
 /// Returns the rate since the last angle before a gap in the angles, degrees a second.
-fn bridged_rate_deg_s(turned_deg: f64, now: Instant, asked: Instant) -> f64 {
-    let span = now.saturating_duration_since(asked);
+fn bridged_rate_deg_s(turned_deg: f64, now: Instant, last_time: Instant) -> f64 {
+    let span = now.saturating_duration_since(last_time);
     if span.is_zero() || span > SPAN {
         return 0.0;
     }
@@ -133,14 +133,14 @@ impl Watch {
                 }
                 continue;
             };
-            let Some((last_deg, asked)) = last.replace((angle_deg, look.requested)) else {
+            let Some((last_deg, last_time)) = last.replace((angle_deg, look.requested)) else {
                 continue;
             };
             let bridged = before.is_some_and(|before| before.requested < look.requested);
             // Without an angle in the previous position, compute the rate from the last known
             // angle.
             if bridged && *rate == 0.0 {
-                *rate = bridged_rate_deg_s(angle_deg - last_deg, look.requested, asked);
+                *rate = bridged_rate_deg_s(angle_deg - last_deg, look.requested, last_time);
             }
             let turned_deg = Angle::from_degrees(angle_deg - last_deg).wrapped_180().degrees();
             // Noise, gusts and rounding change the reading of a standing axis. Between two
@@ -161,8 +161,8 @@ impl Watch {
 /// Returns the max time between two measurements. The unit may have measured the reply to a
 /// repeated query at any time since the first query.
 fn span(before: &Measured, after: &Measured) -> Duration {
-    let asked = after.requested.saturating_duration_since(before.requested);
-    asked.max(after.received.saturating_duration_since(before.received))
+    let interval = after.requested.saturating_duration_since(before.requested);
+    interval.max(after.received.saturating_duration_since(before.received))
 }
 
 /// Returns the rates of the axes, degrees a second; zero for positions that cannot be compared.

@@ -18,9 +18,9 @@ pub(super) struct OffTarget {
 
 impl OffTarget {
     /// Takes the angle off target; `None` on target, or while the antenna cannot have arrived yet.
-    pub(super) fn take(&mut self, off: Option<Angle>, at: Instant) {
-        let began = self.error.map_or(at, |(began, ..)| began);
-        self.error = off.map(|off| (began, off, at));
+    pub(super) fn take(&mut self, error: Option<Angle>, time: Instant) {
+        let began = self.error.map_or(time, |(began, ..)| began);
+        self.error = error.map(|error| (began, error, time));
     }
 
     /// Returns the angle off target once it has lasted [`ALARM_AFTER`].
@@ -34,8 +34,8 @@ impl OffTarget {
     }
 
     fn error_after(&self, min: Duration) -> Option<Angle> {
-        let (began, off, at) = self.error?;
-        (at.saturating_duration_since(began) >= min).then_some(off)
+        let (began, error, time) = self.error?;
+        (time.saturating_duration_since(began) >= min).then_some(error)
     }
 }
 
@@ -47,12 +47,12 @@ mod tests {
     fn a_lasting_error_raises_an_alarm_and_then_ends_the_pass() {
         let start = Instant::now();
         let after = |s| start + Duration::from_secs(s);
-        let off = Some(Angle::from_degrees(5.0));
+        let error = Some(Angle::from_degrees(5.0));
         let mut off_target = OffTarget::default();
         let mut states = Vec::new();
         for second in 0..40 {
             // A short return to the target restarts the count.
-            off_target.take(off.filter(|_| second != 4), after(second));
+            off_target.take(error.filter(|_| second != 4), after(second));
             states.push((off_target.missing().is_some(), off_target.hopeless().is_some()));
         }
         assert_eq!(states.iter().position(|(missing, _)| *missing), Some(15));

@@ -122,9 +122,9 @@ pub(super) fn max_offset(step: Offset) -> Offset {
 
 /// Returns the direction of the track with these offsets, now or at the start of its pass.
 fn demand(track: &Tracking, offsets: TrackOffsets, now: Moment) -> Option<Demand> {
-    let at = track.phase().begins(now.utc);
+    let time = track.phase().begins(now.utc);
     let [axes, plain] =
-        [offsets, offsets.of_time()].map(|offsets| track.planner.demanded(at, offsets));
-    let sky = track.planner.on_the_sky(at, offsets);
-    Some(Demand { at, axes: axes?, sky: sky?, plain: plain? })
+        [offsets, offsets.of_time()].map(|offsets| track.planner.demanded(time, offsets));
+    let sky = track.planner.on_the_sky(time, offsets);
+    Some(Demand { time, axes: axes?, sky: sky?, plain: plain? })
 }

@@ -76,9 +76,9 @@ impl Watch {
         }
     }
 
-    /// Returns the cause of an error of `off`, found in the unit's reports.
-    pub(super) fn cause(&self, off: Angle) -> Option<Ranked> {
-        self.found.cause_of(off).cloned()
+    /// Returns the cause of `error`, found in the unit's reports.
+    pub(super) fn cause(&self, error: Angle) -> Option<Ranked> {
+        self.found.cause_of(error).cloned()
     }
 
     /// Returns the pointing error that the clocks do not explain, with its duration. A unit that
@@ -91,36 +91,41 @@ impl Watch {
     /// `None` for a smaller error.
     fn take_off(
         &mut self,
-        off: Option<Angle>,
+        error: Option<Angle>,
         is_on_target: bool,
         unexplained: Option<Angle>,
         slew: Duration,
-        at: Instant,
+        time: Instant,
     ) {
         self.was_on_target |= is_on_target;
         // Before its first arrival on target, the antenna may still be on its way.
         let slew = if self.was_on_target { Duration::ZERO } else { slew };
-        let arrives = *self.arrives.get_or_insert(at + slew);
-        let counts = self.was_on_target || at >= arrives;
-        self.off_target.take(off.filter(|_| counts), at);
-        self.unexplained.take(unexplained.filter(|_| counts), at);
+        let arrives = *self.arrives.get_or_insert(time + slew);
+        let counts = self.was_on_target || time >= arrives;
+        self.off_target.take(error.filter(|_| counts), time);
+        self.unexplained.take(unexplained.filter(|_| counts), time);
     }
 
     /// Returns the direction of the satellite by the unit's clock; `None` without a known time.
-    fn by_unit_clock(&self, unit: &OnBoard, meant: TrackOffsets, at: Timestamp) -> Option<AzEl> {
+    fn by_unit_clock(
+        &self,
+        unit: &OnBoard,
+        offsets: TrackOffsets,
+        time: Timestamp,
+    ) -> Option<AzEl> {
         let ahead_s = unit.clock.filter(|clock| clock.is_set)?.surely_ahead_s();
-        meant.demanded(add_seconds(at, ahead_s), |at| self.judge.direction(at))
+        offsets.demanded(add_seconds(time, ahead_s), |time| self.judge.direction(time))
     }
 
     /// Judges the pass again if the unit's report has changed.
     pub(super) fn judge_again(&mut self, unit: &OnBoard, holds_target: bool) {
         let same_clock = match (unit.clock, self.found_by.clock) {
-            (Some(now), Some(then)) => {
+            (Some(now), Some(last)) => {
                 let changes_s =
-                    [now.ahead_s - then.ahead_s, now.surely_ahead_s() - then.surely_ahead_s()];
+                    [now.ahead_s - last.ahead_s, now.surely_ahead_s() - last.surely_ahead_s()];
                 changes_s.iter().all(|change_s| change_s.abs() < SAME_CLOCK_S)
             }
-            (now, then) => now.is_some() == then.is_some(),
+            (now, last) => now.is_some() == last.is_some(),
         };
         let with_clock = OnBoard { clock: self.found_by.clock, ..unit.clone() };
         let is_same = same_clock && with_clock == self.found_by;
@@ -148,12 +153,12 @@ impl Watch {
         is_up && self.compared.replace(measured.received) != Some(measured.received)
     }
 
-    /// Returns `true` if neither axis has turned while the path of the unit, now at `to`,
-    /// continued. `can_point`: the unit tracks, and the antenna reaches `to`.
+    /// Returns `true` if neither axis has turned while the path of the unit, now at `target`,
+    /// continued. `can_point`: the unit tracks, and the antenna reaches `target`.
     pub(super) fn stands_still(
         &mut self,
         measured: &Measured,
-        to: AzEl,
+        target: AzEl,
         can_point: bool,
         figures: Figures,
         can: Capabilities,
@@ -163,8 +168,8 @@ impl Watch {
                 && figures.turned(before, measured).is_none()
                 && measured.direction().is_some()
         });
-        let Some((before, from)) = resting else {
-            self.turned = Some((*measured, to));
+        let Some((before, start)) = resting else {
+            self.turned = Some((*measured, target));
             return false;
         };
         let shows_after = Duration::try_from_secs_f64(can.effect.shows_after_s).unwrap_or_default();
@@ -172,34 +177,35 @@ impl Watch {
             + can.effect.ignores_deg
             + 2.0 * can.standstill.resolution_deg
             + 4.0 * figures.tolerance_deg();
-        let off = measured.pointing.separation(to.into());
-        from.separation(to).degrees() > finest_deg
-            && off.is_some_and(|off| off.degrees() > finest_deg)
+        let error = measured.pointing.separation(target.into());
+        start.separation(target).degrees() > finest_deg
+            && error.is_some_and(|error| error.degrees() > finest_deg)
             && measured.requested.saturating_duration_since(before.requested) >= shows_after
     }
 
-    /// Compares a position with the satellite. `meant`: desired offsets.
+    /// Compares a position with the satellite at the desired `offsets`.
     pub(super) fn compare(
         &mut self,
         measured: &Measured,
         unit: &OnBoard,
-        meant: TrackOffsets,
+        offsets: TrackOffsets,
         limits: PointingLimits,
         now: Instant,
     ) {
-        let predicted = meant.demanded(measured.time, |at| self.judge.direction(at));
-        let off = predicted.and_then(|predicted| measured.pointing.separation(predicted.into()));
-        let Some(off) = off else { return };
+        let predicted = offsets.demanded(measured.time, |time| self.judge.direction(time));
+        let error = predicted.and_then(|predicted| measured.pointing.separation(predicted.into()));
+        let Some(error) = error else { return };
         // Both axes may have to turn by more than the beam.
-        let slew_s = 2.0 * off.degrees() / limits.max_rate_deg_s;
+        let slew_s = 2.0 * error.degrees() / limits.max_rate_deg_s;
         let slew = Duration::try_from_secs_f64(slew_s).unwrap_or_default();
-        let is_off = |off: &Angle| *off > limits.on_target;
-        let by_clock = self.by_unit_clock(unit, meant, measured.time);
-        let by_clock = by_clock.and_then(|to| measured.pointing.separation(to.into()));
-        let is_explained = by_clock.is_some_and(|off| !is_off(&off));
-        let unexplained = Some(off).filter(|off| is_off(off) && !is_explained);
-        let outside = Some(off).filter(|off| *off > limits.in_beam);
-        self.take_off(outside, !is_off(&off), unexplained, slew, now);
+        let is_off = |error: &Angle| *error > limits.on_target;
+        let by_clock = self.by_unit_clock(unit, offsets, measured.time);
+        let by_clock =
+            by_clock.and_then(|direction| measured.pointing.separation(direction.into()));
+        let is_explained = by_clock.is_some_and(|error| !is_off(&error));
+        let unexplained = Some(error).filter(|error| is_off(error) && !is_explained);
+        let outside = Some(error).filter(|error| *error > limits.in_beam);
+        self.take_off(outside, !is_off(&error), unexplained, slew, now);
     }
 
     /// Returns the event for a unit that would miss or misses the satellite.

@@ -39,15 +39,15 @@ impl Session {
         if !self.is_judged(watch.judge(), &[unit]) {
             return Ok(None);
         }
-        let to = match self.gate.way_to_pass(watch.judge(), now) {
-            Ok(to) => to,
+        let motion = match self.gate.way_to_pass(watch.judge(), now) {
+            Ok(motion) => motion,
             Err(NoRoute::Refused(refusal)) => return Err(Event::NotSent(refusal)),
             Err(NoRoute::Open(question)) => {
                 self.judging.look_for(question);
                 return Ok(None);
             }
         };
-        let slew = to.map(|to| self.slew(to, Intent::Track, now)).transpose();
+        let slew = motion.map(|motion| self.slew(motion, Intent::Track, now)).transpose();
         Ok(Some((watch, slew.map_err(Event::NotSent)?)))
     }
 
@@ -116,14 +116,19 @@ impl Session {
         self.observed.unasked = judge.map(|judge| Watch::new(Arc::new(judge), &state.on_board));
     }
 
-    /// Returns `true` if the antenna stands while the path of the unit, now at `to`, continues.
-    fn stands_while_it_should_track(&mut self, measured: &Measured, to: AzEl, now: Moment) -> bool {
+    /// Returns `true` if the antenna stands while the path of the unit, now at `target`, continues.
+    fn stands_while_it_should_track(
+        &mut self,
+        measured: &Measured,
+        target: AzEl,
+        now: Moment,
+    ) -> bool {
         let (figures, can) = (self.figures(), self.setup.can());
         let program = self.gate.state().program;
         let tracks = program.is_some_and(|program| program.phase == Phase::Tracking);
-        let can_point = tracks && self.gate.reaches(to, now);
+        let can_point = tracks && self.gate.reaches(target, now);
         let Some(track) = self.commanded.activity.on_board_mut() else { return false };
-        track.watch.stands_still(measured, to, can_point, figures, can)
+        track.watch.stands_still(measured, target, can_point, figures, can)
     }
 
     /// Returns the watch over the on-board track, also over a track that Azel did not request.
@@ -145,7 +150,7 @@ impl Session {
         if !is_on || self.commanded.activity.is_pending() {
             return;
         }
-        let (unit, meant, measured) = (self.plain_unit(), self.meant_offsets(), state.measured);
+        let (unit, offsets, measured) = (self.plain_unit(), self.meant_offsets(), state.measured);
         let figures = self.figures();
         let limits = PointingLimits {
             in_beam: self.setup.in_beam(figures),
@@ -160,11 +165,11 @@ impl Session {
         }
         // Find the direction of this unit by its own minimum elevation, clock and window.
         let own = watch.judge().start(&unit, measured.time);
-        if own.is_some_and(|to| self.stands_while_it_should_track(&measured, to, now)) {
+        if own.is_some_and(|target| self.stands_while_it_should_track(&measured, target, now)) {
             return self.end_without_effect(None, now);
         }
         if let Some(watch) = self.on_board_watch_mut() {
-            watch.compare(&measured, &unit, meant, limits, now.steady);
+            watch.compare(&measured, &unit, offsets, limits, now.steady);
         }
     }
 }

@@ -109,8 +109,8 @@ impl Owed {
     }
 
     /// Records a request on this link to disable auto-track; `None` for a new link.
-    pub(super) fn auto_track_asked(&mut self, at: Option<Instant>) {
-        self.auto_track.asked(at);
+    pub(super) fn auto_track_asked(&mut self, time: Option<Instant>) {
+        self.auto_track.record_request(time);
     }
 
     /// Records that the unit has refused to disable auto-track or has not answered. Returns `true`

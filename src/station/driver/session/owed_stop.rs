@@ -55,7 +55,7 @@ impl Session {
         let now = self.now();
         self.doubt_found_offsets(now);
         let Some(mark) = found else { return };
-        let begun = mark.since;
+        let begun = mark.start;
         let asks = self.setup.can().waits_for_word || is_old(mark, now.utc);
         self.owed.found_mark(begun, asks);
         if asks {

@@ -16,10 +16,11 @@ impl Session {
             Activity::OnBoardTrack(track) => track.watch.unexplained(),
             Activity::Standby | Activity::Manual | Activity::Hold(_) | Activity::GoTo(_) => return,
         };
-        if let Some(off) = off_target.hopeless() {
-            let cause = self.commanded.activity.on_board().and_then(|track| track.watch.cause(off));
+        if let Some(error) = off_target.hopeless() {
+            let cause =
+                self.commanded.activity.on_board().and_then(|track| track.watch.cause(error));
             let cause = cause.map(|cause| Box::new(OffTargetCause::Reported(cause)));
-            let off_deg = off.degrees();
+            let off_deg = error.degrees();
             self.give_up(Event::Safety(Safety::OffTarget { off_deg, cause }), now);
         }
     }

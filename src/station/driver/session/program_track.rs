@@ -133,8 +133,8 @@ impl Session {
     fn enter_phase(&mut self, phase: TrackPhase, now: Moment) {
         let Some(track) = self.commanded.activity.program_mut() else { return };
         let name = track.name();
-        let over = track.enter(phase);
-        if let Some(stats) = over {
+        let stats = track.enter(phase);
+        if let Some(stats) = stats {
             self.tell(Event::ProgramTrackOver { name: name.clone(), stats });
         }
         self.tell_phase(phase, name);
@@ -200,14 +200,14 @@ impl Session {
                 let aim = self.gate.aim(&route.first);
                 self.stop.forget();
                 if let Some(track) = self.commanded.activity.program_mut() {
-                    track.sent(next, aim, route.then.is_some(), now.steady);
+                    track.sent(next, aim, route.second.is_some(), now.steady);
                 }
             }
             // The track waits at the edge, and continues once the path is free.
-            Err(Refusal::Forbidden { barrier, direction: at }) => {
+            Err(Refusal::Forbidden { barrier, direction }) => {
                 let track = self.commanded.activity.program_mut();
                 if track.is_some_and(|track| track.block(now.steady)) {
-                    self.tell(Event::NotSent(Refusal::Forbidden { barrier, direction: at }));
+                    self.tell(Event::NotSent(Refusal::Forbidden { barrier, direction }));
                 }
             }
             // The missing information will arrive later.

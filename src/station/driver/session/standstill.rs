@@ -120,7 +120,7 @@ impl Looks {
 
     /// Returns `true` once for each position, when the session must request the next one.
     pub(super) fn is_due(&mut self, figures: Figures, now: Instant) -> bool {
-        let is_due = self.awaits_look() && self.next(figures).is_some_and(|at| now >= at);
+        let is_due = self.awaits_look() && self.next(figures).is_some_and(|time| now >= time);
         if is_due {
             self.asked_after = self.last;
         }
@@ -149,9 +149,9 @@ impl Looks {
         }
         let first = *self.first.insert(first.unwrap_or(look));
         // The unit may have measured each position at any time between its query and its reply.
-        let asked = look.requested.saturating_duration_since(first.requested);
+        let interval = look.requested.saturating_duration_since(first.requested);
         let apart = look.requested.saturating_duration_since(first.received);
-        if asked < figures.gap || apart + UNEVEN < figures.gap {
+        if interval < figures.gap || apart + UNEVEN < figures.gap {
             return None;
         }
         Some(match figures.blind_axis(&first, &look) {
@@ -220,7 +220,7 @@ mod tests {
     };
 
     fn look(start: Instant, at_s: f64, angles_deg: [Option<f64>; 2]) -> Measured {
-        let at = start + Duration::try_from_secs_f64(at_s).unwrap();
+        let time = start + Duration::try_from_secs_f64(at_s).unwrap();
         let axis = |angle_deg| Axis {
             angle_deg,
             motion: AxisMotion::Still,
@@ -230,8 +230,8 @@ mod tests {
         };
         Measured {
             time: Timestamp::UNIX_EPOCH,
-            requested: at,
-            received: at,
+            requested: time,
+            received: time,
             pointing: AzEl::from_degrees(0.0, 0.0).into(),
             axes: angles_deg.map(axis),
         }
@@ -253,8 +253,8 @@ mod tests {
 
     #[test]
     fn two_looks_that_agree_prove_standstill() {
-        let (at_s, by) = proof(|_| [Some(10.0), Some(20.0)]).unwrap();
-        assert_eq!(by, Proof::Angles);
+        let (at_s, proof) = proof(|_| [Some(10.0), Some(20.0)]).unwrap();
+        assert_eq!(proof, Proof::Angles);
         assert!(at_s >= figures().gap().as_secs_f64(), "{at_s}");
     }
 
@@ -282,15 +282,15 @@ mod tests {
             let late_by = |look: Measured| Measured { received: look.requested + late, ..look };
             let first = late_by(look(start, 0.0, [Some(10.0), Some(69.0)]));
             assert_eq!(looks.take(first, true, Some(start), figures()), None);
-            let asked = looks.next(figures()).unwrap();
-            assert!(asked >= start + gap && looks.is_due(figures(), far));
+            let requested = looks.next(figures()).unwrap();
+            assert!(requested >= start + gap && looks.is_due(figures(), far));
             assert!(!looks.is_due(figures(), far), "it has been requested");
             // This query was already sent.
             let early = late_by(look(start, 0.1, [Some(10.0), Some(69.0)]));
             assert_eq!(looks.take(early, true, Some(start), figures()), None);
             assert!(looks.is_due(figures(), far), "another one is needed");
             // This reply arrives at once.
-            let next = Measured { requested: asked, received: asked, ..first };
+            let next = Measured { requested, received: requested, ..first };
             assert_eq!(looks.take(next, true, Some(start), figures()), Some(Proof::Angles));
         }
     }
@@ -303,15 +303,15 @@ mod tests {
 
     #[test]
     fn an_axis_without_an_angle_stands_by_its_flags() {
-        let (_, by) = proof(|_| [Some(10.0), None]).unwrap();
-        assert_eq!(by, Proof::Flags { axis: 1 });
+        let (_, proof) = proof(|_| [Some(10.0), None]).unwrap();
+        assert_eq!(proof, Proof::Flags { axis: 1 });
     }
 
     #[test]
     fn an_axis_at_north_may_read_either_end_of_the_turn() {
         let is_even = |at_s: f64| (at_s * 10.0).round() % 2.0 == 0.0;
-        let by = proof(|at_s| [Some(if is_even(at_s) { 0.0 } else { 360.0 }), Some(0.0)]);
-        assert!(by.is_some());
+        let proof = proof(|at_s| [Some(if is_even(at_s) { 0.0 } else { 360.0 }), Some(0.0)]);
+        assert!(proof.is_some());
     }
 
     #[test]

@@ -56,7 +56,7 @@ enum Stage {
     /// Sent halt without proved standstill.
     UnderWay(Box<Halting>),
     /// Standstill proved at this time, after an operator's STOP.
-    Proved { at: Instant },
+    Proved { time: Instant },
 }
 
 /// Outcome of a check of a halt.
@@ -121,8 +121,8 @@ impl Stop {
             Stage::UnderWay(halting) if halting.pressed => {
                 StopState::Stopping { start: halting.begun }
             }
-            &Stage::Proved { at } if now.saturating_duration_since(at) < SHOWN => {
-                StopState::Stopped { time: at }
+            &Stage::Proved { time } if now.saturating_duration_since(time) < SHOWN => {
+                StopState::Stopped { time }
             }
             Stage::UnderWay(_) | Stage::Proved { .. } | Stage::Ready => StopState::Ready,
         }
@@ -188,7 +188,7 @@ impl Stop {
     /// Ends the halt after proved standstill. Returns `true` if the operator had pressed STOP.
     pub(super) fn end(&mut self, now: Instant) -> bool {
         let is_pressed = self.is_pressed();
-        self.stage = if is_pressed { Stage::Proved { at: now } } else { Stage::Ready };
+        self.stage = if is_pressed { Stage::Proved { time: now } } else { Stage::Ready };
         is_pressed
     }
 
@@ -209,8 +209,8 @@ impl Stop {
 
     /// Removes the outline of the STOP button after a while.
     pub(super) fn forget_old(&mut self, now: Instant) {
-        if let Stage::Proved { at } = self.stage
-            && now.saturating_duration_since(at) >= SHOWN
+        if let Stage::Proved { time } = self.stage
+            && now.saturating_duration_since(time) >= SHOWN
         {
             self.stage = Stage::Ready;
         }
@@ -227,7 +227,7 @@ impl Stop {
                 let again = (looks.want_stop() && is_open).then_some(halting.again_at);
                 report.into_iter().chain(look).chain(again).min()
             }
-            &Stage::Proved { at } => Some(at + SHOWN),
+            &Stage::Proved { time } => Some(time + SHOWN),
             Stage::Ready => None,
         }
     }

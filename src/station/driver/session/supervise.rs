@@ -131,20 +131,20 @@ impl Session {
                     self.give_up(Event::CannotTrack(target, reason), now);
                 }
             }
-            ControllerEvent::Accepted(asked) => {
+            ControllerEvent::Accepted(request) => {
                 self.gate.motion_accepted(now);
-                if let MotionRequest::Motion(Motion::Position { .. }) = asked {
+                if let MotionRequest::Motion(Motion::Position { .. }) = request {
                     self.position_taken();
                 }
             }
-            ControllerEvent::Refused(asked, code) => {
+            ControllerEvent::Refused(request, code) => {
                 self.gate.motion_not_accepted();
-                self.forget(asked, Event::Refused(asked, code), now);
+                self.forget(request, Event::Refused(request, code), now);
             }
-            ControllerEvent::Unanswered(asked) => {
+            ControllerEvent::Unanswered(request) => {
                 self.gate.motion_not_accepted();
                 let before_deg = self.gate.started_from_deg();
-                self.commanded.doubt(asked, before_deg, now.steady);
+                self.commanded.doubt(request, before_deg, now.steady);
             }
             ControllerEvent::HaltRefused(code) => self.tell(Event::StopRefused(code)),
             ControllerEvent::AutoStaysOn => {
@@ -172,8 +172,8 @@ impl Session {
     }
 
     /// Ends the activity of a failed motion or action.
-    fn forget(&mut self, asked: MotionRequest, event: Event, now: Moment) {
-        let motion = match asked {
+    fn forget(&mut self, request: MotionRequest, event: Event, now: Moment) {
+        let motion = match request {
             MotionRequest::Motion(motion) => motion,
             MotionRequest::Action(_) => return self.tell(event),
         };
@@ -201,7 +201,7 @@ impl Session {
     /// the command.
     fn resolve_doubt(&mut self, now: Moment) {
         let doubt = self.commanded.take_doubt(self.gate.state().measured);
-        let Some(Doubt { asked, before_deg, .. }) = doubt else { return };
+        let Some(Doubt { request, before_deg, .. }) = doubt else { return };
         // A short motion may have ended before its answer was overdue.
         let turned = before_deg.zip(self.gate.axes_deg()).map_or([false; 2], |(before, after)| {
             let [first, second] = before;
@@ -217,7 +217,7 @@ impl Session {
             }
             self.plan_anew(is_open);
         } else if !self.may_send_another() {
-            self.forget(asked, Event::Unanswered(asked), now);
+            self.forget(request, Event::Unanswered(request), now);
         }
     }
 
@@ -241,10 +241,11 @@ impl Session {
         } else {
             Found::Still
         };
-        let away = outage.away_since.map(|lost_at| now.steady.saturating_duration_since(lost_at));
-        let lost = away.unwrap_or_default() + outage.slept;
+        let absence =
+            outage.away_since.map(|lost_at| now.steady.saturating_duration_since(lost_at));
+        let lost = absence.unwrap_or_default() + outage.slept;
         let is_explained = self.explains(found, now);
-        if away.is_some() && self.commanded.activity.program().is_none() {
+        if absence.is_some() && self.commanded.activity.program().is_none() {
             self.contact.comparison.begin(Recheck { begun: now.steady, lost });
         }
         self.follow_on(lost, now);
@@ -264,7 +265,7 @@ impl Session {
                 _ => self.commanded.activity = Activity::Standby,
             }
         }
-        let event = match away {
+        let event = match absence {
             None => Event::Connected(found),
             Some(after) => Event::Back { after, found, is_explained },
         };
@@ -311,15 +312,15 @@ impl Session {
     /// corner, because another path to the same corner would never end.
     fn next_leg(
         &self,
-        then: Motion,
-        at: Pointing,
-        within: Angle,
+        motion: Motion,
+        position: Pointing,
+        tolerance: Angle,
         now: Moment,
     ) -> Result<Slew, Refusal> {
         let intent = self.commanded.activity.intent();
-        let next = self.slew(then, intent, now)?;
-        if !next.leads_on(at, within) {
-            self.gate.check(then, intent, now)?;
+        let next = self.slew(motion, intent, now)?;
+        if !next.leads_on(position, tolerance) {
+            self.gate.check(motion, intent, now)?;
         }
         Ok(next)
     }
@@ -329,16 +330,16 @@ impl Session {
         let (turns, within_deg) = (self.turns(), self.setup.can().arrives_within_deg);
         let turned = self.observed.effects.last_change();
         let Some(measured) = self.gate.state().measured else { return };
-        let Some(at) = self.gate.pointing() else { return };
+        let Some(position) = self.gate.pointing() else { return };
         let Some(slew) = self.commanded.activity.slew_mut() else { return };
-        let within = Angle::from_degrees(within_deg);
+        let tolerance = Angle::from_degrees(within_deg);
         if turns {
             return;
         }
-        let arrival = slew.watch(at, measured.requested, turned, within, now.steady);
+        let arrival = slew.watch(position, measured.requested, turned, tolerance, now.steady);
         let Some(arrival) = arrival else { return };
         match arrival {
-            Arrival::Leg(then) => match self.next_leg(then, at, within, now) {
+            Arrival::Leg(motion) => match self.next_leg(motion, position, tolerance, now) {
                 Ok(next) => {
                     if let Some(slew) = self.commanded.activity.slew_mut() {
                         *slew = next;
@@ -351,7 +352,7 @@ impl Session {
                 None => self.tell(Event::Arrived(aim)),
             },
             Arrival::Short { aim } => {
-                let event = Event::EndedShort { aim, position: at };
+                let event = Event::EndedShort { aim, position };
                 match self.commanded.activity.on_board() {
                     Some(_) => self.give_up(event, now),
                     None => self.tell(event),

@@ -29,19 +29,19 @@ pub(in crate::driver) fn start(
     wired: impl FnOnce(Wires) -> Wires,
 ) -> (Control, AntennaHandle) {
     let control = Control::new(&Options::new(Station::default().site, START));
-    let handle = over(control.clone(), START, debts, wired);
+    let handle = start_with(control.clone(), START, debts, wired);
     (control, handle)
 }
 
 /// Starts a session with a new unit at `now`; returns the unit and the handle.
 pub(in crate::driver) fn start_at(now: Timestamp, debts: Debts) -> (Control, AntennaHandle) {
     let control = Control::new(&Options::new(Station::default().site, now));
-    let handle = over(control.clone(), now, debts, |wires| wires);
+    let handle = start_with(control.clone(), now, debts, |wires| wires);
     (control, handle)
 }
 
 /// Starts a session with a running unit whose time is `now`.
-pub(in crate::driver) fn over(
+pub(in crate::driver) fn start_with(
     control: Control,
     now: Timestamp,
     debts: Debts,
@@ -60,7 +60,7 @@ pub(in crate::driver) fn over(
     let (wires, handle) =
         Wires::new(&antenna, bounds, clock.now().steady, Arc::new(|| {}), &Orders::default());
     let satrak = Box::new(Satrak::new(antenna.poll, "stations.txt".to_owned()));
-    let session = Session::over(satrak, &antenna, dial, clock, wired(wires), debts);
+    let session = Session::with_wires(satrak, &antenna, dial, clock, wired(wires), debts);
     tokio::spawn(session.run());
     handle
 }
@@ -78,11 +78,11 @@ fn site() -> Site {
 /// Returns a high pass of the ISS.
 pub(in crate::driver) fn pass() -> OnBoardPass {
     let elements = read_elements(ELEMENTS).elements.swap_remove(0);
-    let (propagator, from) = (Propagator::new(&elements).unwrap(), elements.epoch());
+    let (propagator, start) = (Propagator::new(&elements).unwrap(), elements.epoch());
     let aos_elevation = Angle::from_degrees(10.0);
     let search = PassSearch {
         aos_elevation,
-        ..PassSearch::new(site(), from, add_seconds(from, 3.0 * 86_400.0))
+        ..PassSearch::new(site(), start, add_seconds(start, 3.0 * 86_400.0))
     };
     let is_high = |pass: &Pass| pass.max_elevation().degrees() > 40.0;
     let pass = passes(&propagator, &search, &|| false).into_iter().find(is_high).unwrap();

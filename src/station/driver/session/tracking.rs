@@ -322,10 +322,10 @@ impl Tracking {
         let is_up = self.phase == TrackPhase::Tracking;
         let direction = is_up.then(|| self.planner.reachable(measured.time)).flatten();
         self.predicted = direction.map(|direction| Sample { time: measured.time, direction });
-        if let Some(off) =
+        if let Some(error) =
             direction.and_then(|direction| measured.pointing.separation(direction.into()))
         {
-            self.stats.take(off);
+            self.stats.take(error);
         }
         // Other events report the reason for a waiting track.
         let is_free = is_up && !self.asks() && !self.barrier_is_reported && direction.is_some();
@@ -338,16 +338,17 @@ impl Tracking {
             .then(|| self.planner.compare(measured.time, positions_deg, reported, half_beam));
         self.on_path = compared.flatten();
         let allowed = on_target + self.planner.allowed(measured.time);
-        let off = match self.on_path {
-            Some(OnPath::Due { deviation: off }) => Some(off).filter(|off| *off > allowed),
+        let error = match self.on_path {
+            Some(OnPath::Due { deviation: error }) => Some(error).filter(|error| *error > allowed),
             Some(OnPath::OnItsWay { .. }) | None => None,
         };
-        self.off_target.take(off, measured.received);
+        self.off_target.take(error, measured.received);
     }
 
     /// Returns `true` once an axis has had no angle for [`UNMEASURED`].
     pub(super) fn is_blind(&self) -> bool {
-        self.unmeasured.is_some_and(|(began, at)| at.saturating_duration_since(began) >= UNMEASURED)
+        self.unmeasured
+            .is_some_and(|(began, last)| last.saturating_duration_since(began) >= UNMEASURED)
     }
 
     /// Returns the axes without assuming either axis at rest.

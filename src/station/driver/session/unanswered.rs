@@ -30,7 +30,7 @@ impl Session {
         self.contact.silence.watch(is_watched, replies, now.steady);
         // A jog that has not begun waits for its position.
         self.gate.device().watch_closely(is_watched || self.commanded.key.pressed().is_some());
-        if self.silence_due().is_some_and(|at| now.steady >= at) {
+        if self.silence_due().is_some_and(|time| now.steady >= time) {
             self.tell_silence();
         }
     }

@@ -36,8 +36,8 @@ impl Session {
         if !is_running && in_force.is_none_or(TrackOffsets::is_none) {
             return Err(Refusal::NoTrack);
         }
-        let before = self.unit_offsets.wanted().or(in_force).ok_or(Refusal::OffsetsUnknown)?;
-        let wanted = match change {
+        let before = self.unit_offsets.requested().or(in_force).ok_or(Refusal::OffsetsUnknown)?;
+        let requested = match change {
             OffsetChange::Step(step) => {
                 if !is_running || !matches!(step, Offset::Azimuth(_) | Offset::Elevation(_)) {
                     return Err(Refusal::NotOffered);
@@ -49,7 +49,7 @@ impl Session {
             OffsetChange::Zero => TrackOffsets::NONE,
             OffsetChange::Undo => self.unit_offsets.last_earlier().ok_or(Refusal::Nothing)?,
         };
-        if let Some(shift) = self.shift(wanted, now)? {
+        if let Some(shift) = self.shift(requested, now)? {
             if !self.is_judged(&shift.judge, &[shift.axes.clone(), shift.sky.clone()]) {
                 self.wait_for_judgement(Command::Offset(change));
                 return Ok(());
@@ -58,10 +58,10 @@ impl Session {
         }
         match change {
             OffsetChange::Undo => self.unit_offsets.drop_last_earlier(),
-            OffsetChange::Step(_) | OffsetChange::Zero if wanted == before => return Ok(()),
+            OffsetChange::Step(_) | OffsetChange::Zero if requested == before => return Ok(()),
             OffsetChange::Step(_) | OffsetChange::Zero => self.unit_offsets.remember(before),
         }
-        self.unit_offsets.request(wanted);
+        self.unit_offsets.request(requested);
         if let Some(shifted) = self.owed.debts().shifted() {
             let shifted = ShiftedTrack { is_found: false, ..shifted };
             self.owed.debts().set_shifted(Some(shifted));
@@ -70,17 +70,17 @@ impl Session {
         Ok(())
     }
 
-    /// Returns the motion of the unit with `wanted` added; `None` if a removal moves nothing.
-    fn shift(&self, wanted: TrackOffsets, now: Moment) -> Result<Option<Shift>, Refusal> {
-        if wanted.is_none() && !self.may_track() {
+    /// Returns the motion of the unit with `requested` added; `None` if a removal moves nothing.
+    fn shift(&self, requested: TrackOffsets, now: Moment) -> Result<Option<Shift>, Refusal> {
+        if requested.is_none() && !self.may_track() {
             return Ok(None);
         }
         let unit = &self.gate.state().on_board;
         let current = self.held_offsets().ok_or(Refusal::OffsetsUnknown)?;
         let shifted = self.owed.debts().shifted();
         let before = shifted.map_or(current, |shifted| shifted.before);
-        let after = before.checked_add(wanted).ok_or(Refusal::NotOffered)?;
-        let with = |offsets| OnBoard {
+        let after = before.checked_add(requested).ok_or(Refusal::NotOffered)?;
+        let unit_with = |offsets| OnBoard {
             offsets: unit.offsets.map(|unit| unit.with_axes_of(offsets)),
             ..unit.clone()
         };
@@ -90,31 +90,33 @@ impl Session {
         pass.target.start = pass.target.start.max(self.unit_time(now)).min(pass.target.end);
         let judge = Judge::new(pass, self.setup.ability()).map_err(|_| Refusal::PassUnknown)?;
         let judge = Arc::new(judge);
-        Ok(Some(Shift { judge, axes: with(after), sky: with(before) }))
+        Ok(Some(Shift { judge, axes: unit_with(after), sky: unit_with(before) }))
     }
 
     /// Records the offsets before their write. A return to the unit's previous offsets needs no
     /// record.
     fn begin_shift(&mut self, fields: &TrackOffsetFields, now: Moment) {
-        let Some(wanted) = self.unit_offsets.wanted() else { return };
+        let Some(requested) = self.unit_offsets.requested() else { return };
         if !self.unit_offsets.is_idle() {
             return;
         }
         let Some(current) = self.held_offsets() else { return self.forget_wanted() };
-        if wanted.is_none() {
+        if requested.is_none() {
             // The record of added offsets stays until the unit reads as before.
             return self.write_shift(fields, now);
         }
         let recorded = self.owed.debts().shifted();
         let new = ShiftedTrack {
-            since: now.utc,
+            start: now.utc,
             before: current,
             put: Vec::new(),
             track: None,
             is_found: false,
         };
         let mut shifted = recorded.unwrap_or(new);
-        let Some(after) = shifted.before.checked_add(wanted) else { return self.forget_wanted() };
+        let Some(after) = shifted.before.checked_add(requested) else {
+            return self.forget_wanted();
+        };
         shifted.track = self.reported_track();
         if self.unit_offsets.is_sure() {
             // The unit has the values that it read back, and no older ones.
@@ -124,7 +126,7 @@ impl Session {
         shifted.may_be(after);
         self.owed.debts().set_shifted(Some(shifted));
         if self.owed.debts().has_marks() {
-            self.unit_offsets.begin_marking(wanted);
+            self.unit_offsets.begin_marking(requested);
         } else {
             self.write_shift(fields, now);
         }
@@ -155,15 +157,15 @@ impl Session {
         fields: &TrackOffsetFields,
         now: Moment,
     ) -> Result<Option<u64>, Refusal> {
-        let Some(wanted) = self.unit_offsets.wanted() else { return Ok(None) };
+        let Some(requested) = self.unit_offsets.requested() else { return Ok(None) };
         let current = self.held_offsets().ok_or(Refusal::OffsetsUnknown)?;
         let Some(shifted) = self.owed.debts().shifted() else { return Ok(None) };
-        let after = shifted.before.checked_add(wanted).ok_or(Refusal::NotOffered)?;
+        let after = shifted.before.checked_add(requested).ok_or(Refusal::NotOffered)?;
         let values = fields.values(current, after);
         if values.is_empty() {
             return Ok(None);
         }
-        let shift = self.shift(wanted, now)?;
+        let shift = self.shift(requested, now)?;
         let ticket = self.unit_offsets.next_ticket();
         let group = self.gate.state().groups.get(fields.group);
         let last_read = group.and_then(|group| Some(group.last_read.as_ref()?.values.clone()));
@@ -178,7 +180,7 @@ impl Session {
         let Some(fields) = self.setup.track_offsets() else { return };
         match self.unit_offsets.step() {
             Step::None => {}
-            Step::Marking { wanted } => match self.owed.debts().shifted_kept() {
+            Step::Marking { requested } => match self.owed.debts().shifted_kept() {
                 PromisedFile::Pending => return,
                 PromisedFile::Failed(_) => {
                     self.unit_offsets.end_step();
@@ -187,7 +189,7 @@ impl Session {
                 }
                 PromisedFile::OnDisk => {
                     self.unit_offsets.end_step();
-                    if self.unit_offsets.wanted() == Some(wanted) {
+                    if self.unit_offsets.requested() == Some(requested) {
                         self.write_shift(fields, now);
                     } else {
                         // The operator has requested another change since.
@@ -212,7 +214,7 @@ impl Session {
         // During the track, the operator may retry, and the end of the track removes the offsets.
         let was_at_the_end = self.unit_offsets.is_taking_back() && self.added_track_is_over(now);
         match &written.result {
-            Ok(()) if self.unit_offsets.wanted() == self.added_offsets() => {
+            Ok(()) if self.unit_offsets.requested() == self.added_offsets() => {
                 self.unit_offsets.is_in_force();
             }
             // The operator has requested another change since.

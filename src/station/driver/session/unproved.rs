@@ -26,10 +26,10 @@ impl Session {
 
     /// Checks whether a motion without a STOP is over.
     pub(super) fn watch_standstill(&mut self, _: Moment) {
-        let Some(since) = self.gate.unproved_since() else { return };
+        let Some(start) = self.gate.unproved_since() else { return };
         let state = self.gate.state();
         let stands = state.measured.is_some_and(|measured| {
-            measured.requested.saturating_duration_since(since) >= SETTLED && !measured.moving()
+            measured.requested.saturating_duration_since(start) >= SETTLED && !measured.moving()
         });
         let program_is_off = state.program.is_none_or(|program| !program.enabled);
         if stands && program_is_off && !self.may_move() {

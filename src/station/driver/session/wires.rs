@@ -104,8 +104,8 @@ impl Wires {
     pub(in crate::driver) fn closed(antenna: &Antenna, now: Instant) -> AntennaHandle {
         let bounds = Bounds::of_antenna(antenna);
         let (wires, handle) = Self::new(antenna, bounds, now, Arc::new(|| {}), &Orders::default());
-        let off = Snapshot::before_anything(LinkState::Off);
-        wires.snapshots.send_replace(Arc::new(off));
+        let snapshot = Snapshot::before_anything(LinkState::Off);
+        wires.snapshots.send_replace(Arc::new(snapshot));
         handle
     }
 

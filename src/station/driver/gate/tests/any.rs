@@ -20,53 +20,53 @@ const GAP_DEG: f64 = 1.0;
 const FINE_DEG: f64 = 0.1;
 
 fn antenna(dice: &mut Dice) -> Antenna {
-    let mut antenna = match dice.between(0.0, 3.0) as u8 {
+    let mut antenna = match dice.draw(0.0, 3.0) as u8 {
         0 => Antenna::satrak("Dish", ""),
         1 => Antenna::genius("Dish", ""),
         _ => Antenna::rc2000c("Dish", ""),
     };
     antenna.mount = if matches!(antenna.mount, Mount::Xy { .. }) && dice.chance(0.7) {
         Mount::Xy {
-            lower_axis_azimuth_deg: dice.between(0.0, 180.0),
-            travel_from_deg: dice.between(0.0, 40.0),
-            travel_to_deg: dice.between(140.0, 180.0),
+            lower_axis_azimuth_deg: dice.draw(0.0, 180.0),
+            travel_from_deg: dice.draw(0.0, 40.0),
+            travel_to_deg: dice.draw(140.0, 180.0),
         }
     } else {
-        let azimuth_from_deg = dice.between(-180.0, 90.0);
+        let azimuth_from_deg = dice.draw(-180.0, 90.0);
         Mount::AzEl {
             azimuth_from_deg,
-            azimuth_to_deg: azimuth_from_deg + dice.between(90.0, 540.0),
-            elevation_from_deg: dice.between(-5.0, 10.0),
-            elevation_to_deg: dice.between(60.0, 180.0),
+            azimuth_to_deg: azimuth_from_deg + dice.draw(90.0, 540.0),
+            elevation_from_deg: dice.draw(-5.0, 10.0),
+            elevation_to_deg: dice.draw(60.0, 180.0),
         }
     };
     if dice.chance(0.4) {
         for term in Term::ALL {
-            let most = if term == Term::ElevationScale { 0.05 } else { 4.0 };
-            *antenna.pointing_model.place(term) = dice.between(-most, most);
+            let max = if term == Term::ElevationScale { 0.05 } else { 4.0 };
+            *antenna.pointing_model.place(term) = dice.draw(-max, max);
         }
     }
-    antenna.beam_width_deg = dice.between(0.01, 20.0);
-    antenna.limits.minimum_elevation_deg = dice.between(0.0, 20.0);
-    antenna.limits.maximum_rate_deg_s = dice.between(0.1, 10.0);
-    antenna.limits.maximum_step_deg = dice.between(1.0, 20.0);
+    antenna.beam_width_deg = dice.draw(0.01, 20.0);
+    antenna.limits.minimum_elevation_deg = dice.draw(0.0, 20.0);
+    antenna.limits.maximum_rate_deg_s = dice.draw(0.1, 10.0);
+    antenna.limits.maximum_step_deg = dice.draw(1.0, 20.0);
     antenna
 }
 
 fn station(dice: &mut Dice) -> Station {
     let mut station = Station::default();
-    for number in 0..dice.between(0.0, 4.0) as u8 {
-        let (az_deg, el_deg) = (dice.between(0.0, 360.0), dice.between(-20.0, 70.0));
-        let (width_deg, height_deg) = (dice.between(5.0, 60.0), dice.between(5.0, 60.0));
+    for number in 0..dice.draw(0.0, 4.0) as u8 {
+        let (az_deg, el_deg) = (dice.draw(0.0, 360.0), dice.draw(-20.0, 70.0));
+        let (width_deg, height_deg) = (dice.draw(5.0, 60.0), dice.draw(5.0, 60.0));
         let top_deg = f64::min(el_deg + height_deg, 89.0);
-        let lean_deg = dice.between(-0.2, 0.2) * width_deg;
+        let lean_deg = dice.draw(-0.2, 0.2) * width_deg;
         let corners_deg = [
             (az_deg, el_deg),
             (az_deg + width_deg, el_deg),
             (az_deg + width_deg + lean_deg, top_deg),
             (az_deg + lean_deg, top_deg),
         ];
-        let margin_deg = dice.between(0.0, 10.0);
+        let margin_deg = dice.draw(0.0, 10.0);
         let Ok(zone) = KeepOut::zone_of(&corners_deg) else { continue };
         let (name, entered) = (format!("zone {number}"), Entered::Hard);
         station.keep_outs.push(KeepOut {
@@ -79,7 +79,7 @@ fn station(dice: &mut Dice) -> Station {
         });
     }
     if dice.chance(0.3) {
-        let (radius_deg, ahead_min) = (dice.between(0.1, 40.0), dice.between(0.0, 30.0));
+        let (radius_deg, ahead_min) = (dice.draw(0.1, 40.0), dice.draw(0.0, 30.0));
         station.sun_avoidance = Some(crate::station::SunAvoidance { radius_deg, ahead_min });
     }
     station
@@ -87,9 +87,9 @@ fn station(dice: &mut Dice) -> Station {
 
 fn motion(dice: &mut Dice, antenna: &Antenna) -> (Intent, Motion) {
     let can = antenna.connection.variant().capabilities;
-    let mut two = |most: f64| {
-        let [x, y] = [dice.between(-most, most), dice.between(-most, most)];
-        match dice.between(0.0, 3.0) as u8 {
+    let mut two = |max: f64| {
+        let [x, y] = [dice.draw(-max, max), dice.draw(-max, max)];
+        match dice.draw(0.0, 3.0) as u8 {
             0 => [x, 0.0],
             1 => [0.0, y],
             _ if can.jogs_one_axis => [x, 0.0],
@@ -98,12 +98,12 @@ fn motion(dice: &mut Dice, antenna: &Antenna) -> (Intent, Motion) {
     };
     let [x_deg_s, y_deg_s] = two(antenna.limits.maximum_rate_deg_s);
     let [x_deg, y_deg] = two(antenna.limits.maximum_step_deg);
-    match dice.between(0.0, 3.0) as u8 {
+    match dice.draw(0.0, 3.0) as u8 {
         0 => (Intent::Manual, Motion::Jog { x_deg_s, y_deg_s }),
         1 if can.steps => (Intent::Manual, Motion::Step { x_deg, y_deg }),
         _ => {
-            let azimuth = dice.between(-180.0, 500.0);
-            (Intent::Position, position(azimuth, dice.between(0.0, 180.0)))
+            let azimuth = dice.draw(-180.0, 500.0);
+            (Intent::Position, position(azimuth, dice.draw(0.0, 180.0)))
         }
     }
 }
@@ -122,7 +122,7 @@ struct BothWays {
 }
 
 impl BothWays {
-    fn of(station: &Station, antenna: &Antenna) -> Self {
+    fn new(station: &Station, antenna: &Antenna) -> Self {
         let plain = Antenna { pointing_model: PointingModel::default(), ..antenna.clone() };
         Self { plain: Bounds::new(station, &plain), model: antenna.track_model() }
     }
@@ -137,13 +137,14 @@ impl BothWays {
         } else {
             self.model.direction(AzEl::from_degrees(first_deg, second_deg))
         };
-        let [by_axes, on_sky] = [by_axes, beam].map(|at| self.plain.at_time(utc).clearances(at));
-        let each = by_axes.into_iter().zip(on_sky).map(|(by_axes, on_sky)| {
+        let [by_axes, on_sky] =
+            [by_axes, beam].map(|direction| self.plain.at_time(utc).clearances(direction));
+        let clearances = by_axes.into_iter().zip(on_sky).map(|(by_axes, on_sky)| {
             let (axes_deg, sky_deg) = (by_axes.angle.degrees(), on_sky.angle.degrees());
             let is_floor = by_axes.barrier == Barrier::MinimumElevation;
             (by_axes.barrier, if is_floor { axes_deg } else { axes_deg.min(sky_deg) })
         });
-        each.collect()
+        clearances.collect()
     }
 
     fn each_deg(&self, axes_deg: [f64; 2], utc: Timestamp) -> Vec<f64> {
@@ -152,22 +153,24 @@ impl BothWays {
 
     /// Returns the clearance from the nearest barrier except the minimum elevation, degrees.
     fn nearest_deg(&self, axes_deg: [f64; 2], utc: Timestamp) -> f64 {
-        let each = self.clear_deg(axes_deg, utc).into_iter();
-        let above = each.filter(|(barrier, _)| *barrier != Barrier::MinimumElevation);
+        let clearances = self.clear_deg(axes_deg, utc).into_iter();
+        let above = clearances.filter(|(barrier, _)| *barrier != Barrier::MinimumElevation);
         above.map(|(_, clear_deg)| clear_deg).fold(180.0, f64::min)
     }
 
     /// Returns the clearance from the surroundings of the Sun, degrees.
     fn sun_deg(&self, axes_deg: [f64; 2], utc: Timestamp) -> f64 {
-        let mut each = self.clear_deg(axes_deg, utc).into_iter();
-        each.find(|(barrier, _)| *barrier == Barrier::Sun).map_or(180.0, |(_, clear_deg)| clear_deg)
+        let mut clearances = self.clear_deg(axes_deg, utc).into_iter();
+        clearances
+            .find(|(barrier, _)| *barrier == Barrier::Sun)
+            .map_or(180.0, |(_, clear_deg)| clear_deg)
     }
 }
 
 /// Returns the shortest turn of one axis to an allowed direction, degrees of the sky; searches in
 /// small steps.
-fn way_out_deg(both: &BothWays, from_deg: [f64; 2], utc: jiff::Timestamp) -> Option<f64> {
-    let (bounds, clear_deg) = (&both.plain, |axes_deg| both.each_deg(axes_deg, utc));
+fn way_out_deg(judge: &BothWays, from_deg: [f64; 2], utc: jiff::Timestamp) -> Option<f64> {
+    let (bounds, clear_deg) = (&judge.plain, |axes_deg| judge.each_deg(axes_deg, utc));
     let before_deg = clear_deg(from_deg);
     let place = |axis: usize, turned_deg: f64| {
         let mut axes_deg = from_deg;
@@ -184,19 +187,19 @@ fn way_out_deg(both: &BothWays, from_deg: [f64; 2], utc: jiff::Timestamp) -> Opt
         }
     };
     let turn_deg = |axis: usize, way: f64| {
-        let at = |turn_deg: f64| place(axis, way * turn_deg);
+        let look = |turn_deg: f64| place(axis, way * turn_deg);
         for step in 0_u32..3_600 {
             let turn_deg = f64::from(step) * FINE_DEG;
-            match at(turn_deg) {
+            match look(turn_deg) {
                 OnTheWay::Inside => {}
                 OnTheWay::Barred => return None,
                 OnTheWay::Free if step == 0 => return Some(0.0),
                 OnTheWay::Free => {
                     let back = (0..=100).map(|part| FINE_DEG * f64::from(part) / 100.0);
                     let free =
-                        back.take_while(|back| matches!(at(turn_deg - back), OnTheWay::Free));
+                        back.take_while(|back| matches!(look(turn_deg - back), OnTheWay::Free));
                     let edge_deg = turn_deg - free.last().unwrap_or_default();
-                    let has_room = matches!(at(edge_deg + GAP_DEG), OnTheWay::Free);
+                    let has_room = matches!(look(edge_deg + GAP_DEG), OnTheWay::Free);
                     return has_room.then_some(edge_deg);
                 }
             }
@@ -225,12 +228,12 @@ fn look_closely(seed: u64) -> Outcome {
     let (antenna, mut station) = (antenna(&mut dice), station(&mut dice));
     station.antennas.clear();
     let (intent, motion) = motion(&mut dice, &antenna);
-    let from_deg = antenna.mount.travel_deg().map(|(from, to)| dice.between(from, to));
-    let utc = add_seconds("2026-06-21T00:00:00Z".parse().unwrap(), dice.between(0.0, 3e7));
-    let (bounds, both) = (Bounds::new(&station, &antenna), BothWays::of(&station, &antenna));
+    let from_deg = antenna.mount.travel_deg().map(|(min, max)| dice.draw(min, max));
+    let utc = add_seconds("2026-06-21T00:00:00Z".parse().unwrap(), dice.draw(0.0, 3e7));
+    let (bounds, judge) = (Bounds::new(&station, &antenna), BothWays::new(&station, &antenna));
     let here = bounds.direction(from_deg);
     let mut case = Case { antenna: antenna.clone(), ..Case::new(intent) };
-    case.age = Duration::from_millis(dice.between(0.0, 900.0) as u64);
+    case.age = Duration::from_millis(dice.draw(0.0, 900.0) as u64);
     let measured = case.state.measured.as_mut().unwrap();
     measured.pointing = here.into();
     for (axis, deg) in measured.axes.iter_mut().zip(from_deg) {
@@ -248,7 +251,7 @@ fn look_closely(seed: u64) -> Outcome {
     let situation = gate.situation(intent, false, now);
     let (to_deg, is_hand) = match motion {
         Motion::Jog { x_deg_s, y_deg_s } => {
-            let ahead = situation.turning([x_deg_s, y_deg_s]).map(|it| it * situation.ahead_s);
+            let ahead = situation.turning([x_deg_s, y_deg_s]).map(|rate| rate * situation.ahead_s);
             ([from_deg[0] + ahead[0], from_deg[1] + ahead[1]], true)
         }
         Motion::Step { x_deg, y_deg } => ([from_deg[0] + x_deg, from_deg[1] + y_deg], true),
@@ -258,18 +261,18 @@ fn look_closely(seed: u64) -> Outcome {
         assert!((min_deg - 1e-6..=max_deg + 1e-6).contains(&to_deg), "{seed}: {to_deg}");
     }
     let floor_deg = f64::min(antenna.limits.minimum_elevation_deg, here.elevation_deg());
-    let clear_deg = |axes_deg: [f64; 2]| both.nearest_deg(axes_deg, utc);
+    let clear_deg = |axes_deg: [f64; 2]| judge.nearest_deg(axes_deg, utc);
     let start_deg = clear_deg(from_deg);
     if start_deg < 0.0 && is_hand {
-        let ways_deg = [from_deg, to_deg].map(|axes_deg| way_out_deg(&both, axes_deg, utc));
+        let ways_deg = [from_deg, to_deg].map(|axes_deg| way_out_deg(&judge, axes_deg, utc));
         if let [Some(start_deg), Some(end_deg)] = ways_deg {
             let is_deeper = end_deg > start_deg + FINE_DEG;
             assert!(!is_deeper, "{seed}: {motion:?} leads from {start_deg} to {end_deg}");
             // No place in between enters a barrier either, and the antenna stays outside the
             // others.
             let entered_at = |axes_deg, edge_deg: f64| {
-                let each = both.each_deg(axes_deg, utc).into_iter();
-                each.map(|clear_deg| clear_deg < -edge_deg).collect::<Vec<_>>()
+                let clearances = judge.each_deg(axes_deg, utc).into_iter();
+                clearances.map(|clear_deg| clear_deg < -edge_deg).collect::<Vec<_>>()
             };
             let entered = entered_at(from_deg, 0.0);
             for part in 1..=16 {
@@ -280,7 +283,7 @@ fn look_closely(seed: u64) -> Outcome {
                 let is_new =
                     entered.iter().zip(entered_at(axes_deg, EDGE_DEG)).any(|(was, is)| !was && is);
                 assert!(!is_new, "{seed}: {motion:?} enters another at {axes_deg:?}");
-                let Some(here_deg) = way_out_deg(&both, axes_deg, utc) else { continue };
+                let Some(here_deg) = way_out_deg(&judge, axes_deg, utc) else { continue };
                 let is_deeper = here_deg > start_deg + 3.0 * FINE_DEG;
                 assert!(!is_deeper, "{seed}: {start_deg} to {here_deg} at {axes_deg:?}");
             }
@@ -293,7 +296,7 @@ fn look_closely(seed: u64) -> Outcome {
     // A go-to may begin inside only near the Sun, and must not approach it.
     let min_clear_deg = f64::min(start_deg, 0.0) - EDGE_DEG;
     assert!(clear_deg(to_deg) > -EDGE_DEG, "{seed}: {motion:?} ends inside");
-    assert!(start_deg > -EDGE_DEG || both.sun_deg(from_deg, utc) < 0.0, "{seed}: {motion:?}");
+    assert!(start_deg > -EDGE_DEG || judge.sun_deg(from_deg, utc) < 0.0, "{seed}: {motion:?}");
     // Each axis may have completed any share of its path at any time.
     for first in 0..=10 {
         for second in 0..=10 {
@@ -322,7 +325,7 @@ fn any_motion_that_is_allowed_sweeps_nothing_forbidden() {
     // One of these cases costs a thousandth of a whole session.
     let cases = number("AZEL_CASES").map_or(2_000, |cases| cases * 10);
     let outcomes: Vec<Outcome> = (seed..seed + cases).map(look_closely).collect();
-    let count = |outcome| outcomes.iter().filter(|it| **it == outcome).count();
+    let count = |outcome| outcomes.iter().filter(|other| **other == outcome).count();
     let (allowed, led_out) = (count(Outcome::Allowed), count(Outcome::LedOut));
     println!("gate: {cases} cases from seed {seed}, {allowed} allowed, {led_out} led out");
     assert!(allowed > cases as usize / 20 && led_out > 0, "{allowed} allowed, {led_out} led out");

@@ -45,11 +45,11 @@ fn there_is_no_route_until_a_detour_has_been_looked_for_and_it_grows_old() {
     let case = beside_a_mast();
     let mut gate = case.gate(&Arc::default());
     let now = case.now();
-    let behind = position(140.0, 20.0);
-    let question = open(gate.route(behind, Intent::Track, now)).expect("nobody has looked");
+    let motion = position(140.0, 20.0);
+    let question = open(gate.route(motion, Intent::Track, now)).expect("nobody has looked");
     gate.take_detour(question.search());
-    let route = gate.route(behind, Intent::Track, now).unwrap();
-    assert_eq!(route.then, Some(behind));
+    let route = gate.route(motion, Intent::Track, now).unwrap();
+    assert_eq!(route.second, Some(motion));
     assert_eq!(gate.check(route.first, Intent::Track, now), Ok(()));
     let Motion::Position { elevation: Some(elevation), .. } = route.first else { panic!() };
     assert!(elevation.degrees() > 20.0, "it leads over the mast: {elevation:?}");
@@ -57,21 +57,21 @@ fn there_is_no_route_until_a_detour_has_been_looked_for_and_it_grows_old() {
     assert!(gate.route(position(141.0, 20.5), Intent::Track, now).is_ok());
     assert!(open(gate.route(position(150.0, 20.0), Intent::Track, now)).is_some(), "another end");
     let later = Moment { steady: now.steady + Duration::from_secs(3), ..now };
-    assert!(open(gate.route(behind, Intent::Track, later)).is_some(), "old");
+    assert!(open(gate.route(motion, Intent::Track, later)).is_some(), "old");
 }
 
 #[test]
 fn a_detour_within_other_bounds_is_looked_for_anew() {
     let case = beside_a_mast();
     let mut gate = case.gate(&Arc::default());
-    let (now, behind) = (case.now(), position(140.0, 20.0));
-    let question = open(gate.route(behind, Intent::Track, now)).expect("nobody has looked");
+    let (now, motion) = (case.now(), position(140.0, 20.0));
+    let question = open(gate.route(motion, Intent::Track, now)).expect("nobody has looked");
     gate.take_detour(question.search());
     let keep_outs =
         case.keep_outs.iter().map(|keep_out| KeepOut { margin_deg: 3.0, ..keep_out.clone() });
     let wider = Station { keep_outs: keep_outs.collect(), ..Station::default() };
     gate.keep_within(Bounds::new(&wider, &case.antenna));
-    assert!(open(gate.route(behind, Intent::Track, now)).is_some());
+    assert!(open(gate.route(motion, Intent::Track, now)).is_some());
 }
 
 /// Only program track can follow a detour.
@@ -99,10 +99,10 @@ fn a_motion_begins_wherever_the_last_one_has_led_by_then() {
         let later = Duration::try_from_secs_f64(ago_s).unwrap();
         let now = Moment { steady: now.steady + later, ..now };
         let over_the_mast = position(80.0, 45.0);
-        let asked = gate.check(over_the_mast, Intent::Track, now);
+        let answer = gate.check(over_the_mast, Intent::Track, now);
         gate.halted();
         assert_eq!(gate.check(over_the_mast, Intent::Track, now), Ok(()), "it stands");
-        asked
+        answer
     };
     assert_eq!(started_s(0.0), Ok(()));
     assert!(matches!(started_s(0.9), Err(Refusal::Forbidden { .. })));

@@ -14,7 +14,7 @@ use crate::device::{
 
 /// Request to the gate.
 #[derive(Debug, Clone, Copy)]
-enum Asked {
+enum Request {
     Motion(Motion),
     /// Action that moves nothing.
     Act,
@@ -39,11 +39,11 @@ fn idle_satrak() -> Case {
 struct Needed {
     rule: &'static str,
     case: Case,
-    asked: Asked,
+    request: Request,
     is_its_refusal: fn(&Refusal) -> bool,
 }
 
-fn put(gate: &mut Gate, case: &Case, asked: Asked) -> Result<(), Refusal> {
+fn put(gate: &mut Gate, case: &Case, request: Request) -> Result<(), Refusal> {
     let (intent, stopping, now) = (case.intent, case.stopping, case.now());
     let act = |action| Act { action, values: Values::new() };
     let change = || Change {
@@ -53,13 +53,13 @@ fn put(gate: &mut Gate, case: &Case, asked: Asked) -> Result<(), Refusal> {
         expected: None,
         is_unlocked: false,
     };
-    match asked {
-        Asked::Motion(motion) => gate.start(motion, intent, stopping, now),
-        Asked::Act => gate.act(act("read_list"), false, intent, stopping, now).map(drop),
-        Asked::MovingAct => gate.act(act("to_counts"), false, intent, stopping, now).map(drop),
-        Asked::AgreedAct => gate.act(act("to_counts"), true, intent, stopping, now).map(drop),
-        Asked::Setting => gate.write_settings(change(), false, stopping, now),
-        Asked::SettingInMotion => gate.write_settings(change(), true, stopping, now),
+    match request {
+        Request::Motion(motion) => gate.start(motion, intent, stopping, now),
+        Request::Act => gate.act(act("read_list"), false, intent, stopping, now).map(drop),
+        Request::MovingAct => gate.act(act("to_counts"), false, intent, stopping, now).map(drop),
+        Request::AgreedAct => gate.act(act("to_counts"), true, intent, stopping, now).map(drop),
+        Request::Setting => gate.write_settings(change(), false, stopping, now),
+        Request::SettingInMotion => gate.write_settings(change(), true, stopping, now),
     }
 }
 
@@ -106,10 +106,10 @@ fn last_azimuth_deg() -> f64 {
 fn needed(
     rule: &'static str,
     case: Case,
-    asked: Asked,
+    request: Request,
     is_its_refusal: fn(&Refusal) -> bool,
 ) -> Needed {
-    Needed { rule, case, asked, is_its_refusal }
+    Needed { rule, case, request, is_its_refusal }
 }
 
 fn table() -> Vec<Needed> {
@@ -121,47 +121,55 @@ fn table() -> Vec<Needed> {
 fn motions() -> Vec<Needed> {
     use crate::contract::driver::Intent::{Manual, Position, Standby, Track};
     let manual = || Case::new(Manual);
-    let turn = Asked::Motion(jog(1.0, 0.0));
+    let turn = Request::Motion(jog(1.0, 0.0));
     vec![
-        needed("unit_is_not_locked_out", locked_out(manual()), turn, |it| {
-            matches!(it, Refusal::LockedOut { .. })
+        needed("unit_is_not_locked_out", locked_out(manual()), turn, |refusal| {
+            matches!(refusal, Refusal::LockedOut { .. })
         }),
-        needed("something_is_asked_for", manual(), Asked::Motion(jog(0.0, 0.0)), |it| {
-            *it == Refusal::Nothing
+        needed("something_is_asked_for", manual(), Request::Motion(jog(0.0, 0.0)), |refusal| {
+            *refusal == Refusal::Nothing
         }),
-        needed("safety_settings_are_read", unread(manual()), Asked::Motion(jog(0.5, 0.0)), |it| {
-            matches!(it, Refusal::SettingsUnread { .. })
+        needed(
+            "safety_settings_are_read",
+            unread(manual()),
+            Request::Motion(jog(0.5, 0.0)),
+            |refusal| matches!(refusal, Refusal::SettingsUnread { .. }),
+        ),
+        needed("controller_offers_it", genius(Manual), Request::Motion(jog(1.0, 1.0)), |refusal| {
+            *refusal == Refusal::OneAxis
         }),
-        needed("controller_offers_it", genius(Manual), Asked::Motion(jog(1.0, 1.0)), |it| {
-            *it == Refusal::OneAxis
+        needed(
+            "position_is_fresh",
+            Case { age: Duration::from_secs(1), ..manual() },
+            turn,
+            |refusal| matches!(refusal, Refusal::PositionOld(_)),
+        ),
+        needed("no_stop_under_way", Case { stopping: true, ..manual() }, turn, |refusal| {
+            *refusal == Refusal::Stopping
         }),
-        needed("position_is_fresh", Case { age: Duration::from_secs(1), ..manual() }, turn, |it| {
-            matches!(it, Refusal::PositionOld(_))
+        needed("intent_allows_it", Case::new(Standby), turn, |refusal| {
+            *refusal == Refusal::Intent(Standby)
         }),
-        needed("no_stop_under_way", Case { stopping: true, ..manual() }, turn, |it| {
-            *it == Refusal::Stopping
-        }),
-        needed("intent_allows_it", Case::new(Standby), turn, |it| *it == Refusal::Intent(Standby)),
         needed(
             "no_fault_forbids_it",
             changed(manual(), |case| case.state.motion_lock = Some(true)),
             turn,
-            |it| *it == Refusal::Fault,
+            |refusal| *refusal == Refusal::Fault,
         ),
         needed(
             "no_limit_switch_in_that_direction",
             changed(manual(), |case| case.axes()[0].plus_limit = true),
             turn,
-            |it| matches!(it, Refusal::Limit { plus: true, .. }),
+            |refusal| matches!(refusal, Refusal::Limit { plus: true, .. }),
         ),
-        needed("within_rates_and_steps", manual(), Asked::Motion(step(5.5, 0.0)), |it| {
-            matches!(it, Refusal::StepTooLarge { .. })
+        needed("within_rates_and_steps", manual(), Request::Motion(step(5.5, 0.0)), |refusal| {
+            matches!(refusal, Refusal::StepTooLarge { .. })
         }),
         needed(
             "no_blind_jog",
             changed(genius(Manual), |case| case.axes()[0].angle_deg = None),
             turn,
-            |it| matches!(it, Refusal::AngleUnknown { .. }),
+            |refusal| matches!(refusal, Refusal::AngleUnknown { .. }),
         ),
         needed(
             "within_travel",
@@ -169,37 +177,37 @@ fn motions() -> Vec<Needed> {
                 case.axes()[0].angle_deg = Some(last_azimuth_deg() - 0.001);
             }),
             turn,
-            |it| matches!(it, Refusal::Travel { .. }),
+            |refusal| matches!(refusal, Refusal::Travel { .. }),
         ),
         needed(
             "within_reach",
             rc2000c(Position),
-            Asked::Motion(position(last_azimuth_deg() + 1.0, 45.0)),
-            |it| matches!(it, Refusal::Travel { .. }),
+            Request::Motion(position(last_azimuth_deg() + 1.0, 45.0)),
+            |refusal| matches!(refusal, Refusal::Travel { .. }),
         ),
         needed(
             "way_is_clear",
             beside_a_mast(genius(Position)),
-            Asked::Motion(position(160.0, 20.0)),
-            |it| matches!(it, Refusal::Forbidden { .. }),
+            Request::Motion(position(160.0, 20.0)),
+            |refusal| matches!(refusal, Refusal::Forbidden { .. }),
         ),
         needed(
             "program_is_clear",
             Case { pass_is_known: false, ..Case::new(Track) },
-            Asked::Motion(Motion::StartProgram),
-            |it| *it == Refusal::PassUnknown,
+            Request::Motion(Motion::StartProgram),
+            |refusal| *refusal == Refusal::PassUnknown,
         ),
         needed(
             "auto_track_is_clear",
-            Case { held: NextPass::Unknown { name: "TWIN".to_owned() }, ..Case::new(Standby) },
-            Asked::Motion(Motion::EnableAuto),
-            |it| matches!(it, Refusal::OrbitUnknown { .. }),
+            Case { next_pass: NextPass::Unknown { name: "TWIN".to_owned() }, ..Case::new(Standby) },
+            Request::Motion(Motion::EnableAuto),
+            |refusal| matches!(refusal, Refusal::OrbitUnknown { .. }),
         ),
         needed(
             "controller_agrees",
             Case { objection: Some("one rotator at a time"), ..manual() },
             turn,
-            |it| matches!(it, Refusal::Controller(_)),
+            |refusal| matches!(refusal, Refusal::Controller(_)),
         ),
     ]
 }
@@ -207,20 +215,23 @@ fn motions() -> Vec<Needed> {
 fn actions_and_settings() -> Vec<Needed> {
     use crate::contract::driver::Intent::Manual;
     vec![
-        needed("no_action_while_locked_out", locked_out(rc2000c(Manual)), Asked::Act, |it| {
-            matches!(it, Refusal::LockedOut { .. })
-        }),
+        needed(
+            "no_action_while_locked_out",
+            locked_out(rc2000c(Manual)),
+            Request::Act,
+            |refusal| matches!(refusal, Refusal::LockedOut { .. }),
+        ),
         needed(
             "the_end_of_the_action_can_be_known",
             Case { leads_to: Lead::Unknown("not calibrated"), ..rc2000c(Manual) },
-            Asked::MovingAct,
-            |it| *it == Refusal::Controller("not calibrated"),
+            Request::MovingAct,
+            |refusal| *refusal == Refusal::Controller("not calibrated"),
         ),
         needed(
             "the_operator_answers_for_an_unseen_end",
             Case { leads_to: Lead::Unseen("names only"), ..rc2000c(Manual) },
-            Asked::MovingAct,
-            |it| matches!(it, Refusal::Unseen { .. }),
+            Request::MovingAct,
+            |refusal| matches!(refusal, Refusal::Unseen { .. }),
         ),
         needed(
             "an_unseen_way_is_watched",
@@ -228,8 +239,8 @@ fn actions_and_settings() -> Vec<Needed> {
                 Case { leads_to: Lead::Unseen("names only"), ..beside_a_mast(rc2000c(Manual)) },
                 |case| case.axes()[0].angle_deg = None,
             ),
-            Asked::AgreedAct,
-            |it| matches!(it, Refusal::AngleUnknown { .. }),
+            Request::AgreedAct,
+            |refusal| matches!(refusal, Refusal::AngleUnknown { .. }),
         ),
         needed(
             "end_of_the_action_is_within_reach",
@@ -237,8 +248,8 @@ fn actions_and_settings() -> Vec<Needed> {
                 leads_to: Lead::To([Some(last_azimuth_deg() + 1.0), Some(45.0)]),
                 ..rc2000c(Manual)
             },
-            Asked::MovingAct,
-            |it| matches!(it, Refusal::Travel { .. }),
+            Request::MovingAct,
+            |refusal| matches!(refusal, Refusal::Travel { .. }),
         ),
         needed(
             "way_of_the_action_is_clear",
@@ -246,42 +257,47 @@ fn actions_and_settings() -> Vec<Needed> {
                 leads_to: Lead::To([Some(160.0), Some(20.0)]),
                 ..beside_a_mast(rc2000c(Manual))
             },
-            Asked::MovingAct,
-            |it| matches!(it, Refusal::Forbidden { .. }),
+            Request::MovingAct,
+            |refusal| matches!(refusal, Refusal::Forbidden { .. }),
         ),
-        needed("no_setting_while_locked_out", locked_out(idle_satrak()), Asked::Setting, |it| {
-            matches!(it, Refusal::LockedOut { .. })
-        }),
+        needed(
+            "no_setting_while_locked_out",
+            locked_out(idle_satrak()),
+            Request::Setting,
+            |refusal| matches!(refusal, Refusal::LockedOut { .. }),
+        ),
         needed(
             "no_setting_while_stopping",
             Case { stopping: true, ..idle_satrak() },
-            Asked::Setting,
-            |it| matches!(it, Refusal::Setting { hindrance: Hindrance::Stopping, .. }),
+            Request::Setting,
+            |refusal| matches!(refusal, Refusal::Setting { hindrance: Hindrance::Stopping, .. }),
         ),
         needed(
             "no_setting_while_the_unit_may_move",
             changed(idle_satrak(), |case| case.axes()[1].motion = AxisMotion::Plus),
-            Asked::Setting,
-            |it| matches!(it, Refusal::Setting { hindrance: Hindrance::Moves, .. }),
+            Request::Setting,
+            |refusal| matches!(refusal, Refusal::Setting { hindrance: Hindrance::Moves, .. }),
         ),
         needed(
             "no_setting_after_a_motion_was_asked_for",
             idle_satrak(),
-            Asked::SettingInMotion,
-            |it| matches!(it, Refusal::Setting { hindrance: Hindrance::Moves, .. }),
+            Request::SettingInMotion,
+            |refusal| matches!(refusal, Refusal::Setting { hindrance: Hindrance::Moves, .. }),
         ),
     ]
 }
 
 #[test]
 fn a_case_that_only_this_rule_refuses_passes_without_it() {
-    for Needed { rule, case, asked, is_its_refusal } in table() {
+    for Needed { rule, case, request, is_its_refusal } in table() {
         let gate = || case.gate(&Arc::default());
-        let Err(refused) = put(&mut gate(), &case, asked) else { panic!("{rule} lets it through") };
+        let Err(refused) = put(&mut gate(), &case, request) else {
+            panic!("{rule} lets it through")
+        };
         assert!(is_its_refusal(&refused), "{rule}: {refused:?}");
-        assert_eq!(put(&mut gate().without(rule), &case, asked), Ok(()), "without {rule}");
+        assert_eq!(put(&mut gate().omit(rule), &case, request), Ok(()), "without {rule}");
         for other in RULES.iter().filter(|other| other.name != rule) {
-            let answer = put(&mut gate().without(other.name), &case, asked);
+            let answer = put(&mut gate().omit(other.name), &case, request);
             assert_eq!(answer, Err(refused.clone()), "{rule}, without {}", other.name);
         }
     }

@@ -7,7 +7,7 @@ use crate::{
     station::ControllerSpec,
 };
 
-fn of(antenna: Antenna, intent: Intent) -> Case {
+fn new_case(antenna: Antenna, intent: Intent) -> Case {
     let mut case = Case { antenna, ..Case::new(intent) };
     for axis in case.axes() {
         axis.angle_deg = Some(45.0);
@@ -16,17 +16,17 @@ fn of(antenna: Antenna, intent: Intent) -> Case {
 }
 
 pub(super) fn genius(intent: Intent) -> Case {
-    of(Antenna::genius("Mast", ""), intent)
+    new_case(Antenna::genius("Mast", ""), intent)
 }
 
 pub(super) fn rc2000c(intent: Intent) -> Case {
-    of(Antenna::rc2000c("Dish", ""), intent)
+    new_case(Antenna::rc2000c("Dish", ""), intent)
 }
 
 fn alone(intent: Intent) -> Case {
     let mut antenna = Antenna::genius("Mast", "");
     antenna.connection.put(&ROTATORS, Rotators::First).unwrap();
-    of(antenna, intent)
+    new_case(antenna, intent)
 }
 
 #[test]
@@ -55,7 +55,7 @@ fn an_axis_that_is_absent_is_not_turned() {
     };
     static MAST: ControllerSpec =
         ControllerSpec { variants: &[&AZIMUTH], variant: |_| &AZIMUTH, ..SPEC };
-    let mast = of(MAST.antenna("Mast", ""), Intent::Manual);
+    let mast = new_case(MAST.antenna("Mast", ""), Intent::Manual);
     assert_eq!(mast.ask(jog(1.0, 0.0)), Ok(()));
     assert_eq!(mast.ask(step(1.0, 0.0)), Ok(()));
     assert_eq!(mast.ask(jog(0.0, 1.0)), Err(Refusal::NotOffered));
@@ -92,8 +92,8 @@ fn an_azimuth_axis_has_its_own_ends() {
         elevation_to_deg: 90.0,
     };
     assert_eq!(case.ask(position(449.0, 30.0)), Ok(()));
-    let beyond = case.ask(position(451.0, 30.0));
-    assert!(matches!(beyond, Err(Refusal::Travel { axis: "Az", .. })), "{beyond:?}");
+    let answer = case.ask(position(451.0, 30.0));
+    assert!(matches!(answer, Err(Refusal::Travel { axis: "Az", .. })), "{answer:?}");
 
     // An axis that stays in place needs no angle.
     case.axes()[0].angle_deg = None;
@@ -113,7 +113,7 @@ fn an_azimuth_of_the_sky_goes_to_the_nearest_position_of_the_axis() {
     {
         let mut case = rc2000c(Intent::Position);
         case.axes()[0].angle_deg = Some(at_deg);
-        let metal = Metal::of(&case, Arc::default());
+        let metal = Metal::new(&case, Arc::default());
         let gate = Gate::new(
             Box::new(metal),
             &case.antenna,
@@ -152,7 +152,7 @@ fn flipped(intent: Intent) -> (Case, Gate) {
     case.axes()[0].angle_deg = Some(200.0);
     case.axes()[1].angle_deg = Some(120.0);
     case.state.measured.as_mut().unwrap().pointing = AzEl::from_degrees(20.0, 60.0).into();
-    let metal = Metal::of(&case, Arc::default());
+    let metal = Metal::new(&case, Arc::default());
     let gate = Gate::new(
         Box::new(metal),
         &case.antenna,
@@ -177,8 +177,8 @@ fn over_the_zenith_the_antenna_stays_above_the_lowest_elevation_too() {
         *elevation_to_deg = 130.0;
     }
     assert_eq!(short.ask(position(45.0, 130.0)), Ok(()));
-    let beyond = short.ask(position(45.0, 131.0));
-    assert!(matches!(beyond, Err(Refusal::Travel { axis: "El", .. })), "{beyond:?}");
+    let answer = short.ask(position(45.0, 131.0));
+    assert!(matches!(answer, Err(Refusal::Travel { axis: "El", .. })), "{answer:?}");
     let plain = rc2000c(Intent::Track).ask(position(45.0, 120.0));
     assert!(matches!(plain, Err(Refusal::Elevation { .. })), "{plain:?}");
 }
@@ -186,10 +186,10 @@ fn over_the_zenith_the_antenna_stays_above_the_lowest_elevation_too() {
 #[test]
 fn by_hand_the_axes_go_back_to_where_they_count_plainly() {
     let (_, gate) = flipped(Intent::Position);
-    let near = |motion: Motion, wanted: [Option<f64>; 2]| {
+    let near = |motion: Motion, expected: [Option<f64>; 2]| {
         let Ok(Motion::Position { azimuth, elevation }) = gate.nearest(motion) else { panic!() };
-        for (at, wanted) in [azimuth, elevation].into_iter().zip(wanted) {
-            assert_eq!(at.map(|at| at.degrees().round()), wanted, "{motion:?}");
+        for (angle, expected) in [azimuth, elevation].into_iter().zip(expected) {
+            assert_eq!(angle.map(|angle| angle.degrees().round()), expected, "{motion:?}");
         }
     };
     near(position(30.0, 40.0), [Some(30.0), Some(40.0)]);
@@ -197,8 +197,8 @@ fn by_hand_the_axes_go_back_to_where_they_count_plainly() {
     near(position(30.0, None), [Some(210.0), None]);
     near(position(190.0, None), [Some(10.0), None]);
     near(position(None, 40.0), [None, Some(140.0)]);
-    let beyond = gate.nearest(position(30.0, 120.0));
-    assert!(matches!(beyond, Err(Refusal::Elevation { .. })), "{beyond:?}");
+    let answer = gate.nearest(position(30.0, 120.0));
+    assert!(matches!(answer, Err(Refusal::Elevation { .. })), "{answer:?}");
 }
 
 #[test]
@@ -212,8 +212,8 @@ fn a_motion_over_the_zenith_ends_on_the_other_side() {
         (position(None, 40.0), 200.0, 40.0),
     ] {
         let aim = gate.aim(&motion).and_then(Pointing::direction).unwrap();
-        let off = aim.separation(AzEl::from_degrees(azimuth_deg, elevation_deg));
-        assert!(off.degrees() < 1e-9, "{motion:?} {aim:?}");
+        let deviation = aim.separation(AzEl::from_degrees(azimuth_deg, elevation_deg));
+        assert!(deviation.degrees() < 1e-9, "{motion:?} {aim:?}");
     }
 }
 
@@ -304,8 +304,8 @@ fn by_hand_it_leaves_a_keep_out_and_enters_it_nowhere_again() {
     let now = case.now();
     gate.let_out(Some(now.steady + Duration::from_secs(1)));
     assert_eq!(gate.check(step(8.0, 0.0), Intent::Manual, now), Ok(()));
-    let through = gate.check(step(14.0, 0.0), Intent::Manual, now);
-    assert!(matches!(through, Err(Refusal::Forbidden { .. })), "{through:?}");
+    let answer = gate.check(step(14.0, 0.0), Intent::Manual, now);
+    assert!(matches!(answer, Err(Refusal::Forbidden { .. })), "{answer:?}");
 }
 
 /// Changes the mount to azimuth and elevation.

@@ -8,7 +8,7 @@ const OFFSET_DEG: f64 = 4.0;
 
 /// Returns an azimuth and elevation antenna at this azimuth and 30 degrees of elevation. A mast
 /// stands between 100 and 120 degrees.
-fn at(azimuth_deg: f64, intent: Intent) -> Case {
+fn case_at(azimuth_deg: f64, intent: Intent) -> Case {
     let mut case = Case::new(intent);
     case.antenna.mount = Mount::AzEl {
         azimuth_from_deg: 0.0,
@@ -44,14 +44,13 @@ fn plain(case: Case) -> Case {
 
 /// Checks that the mast forbids `motion` from `azimuth_deg`, but not without a model.
 fn assert_only_the_beam_enters(azimuth_deg: f64, intent: Intent, motion: Motion) {
-    let Err(Refusal::Forbidden { barrier, direction: inside }) =
-        at(azimuth_deg, intent).ask(motion)
+    let Err(Refusal::Forbidden { barrier, direction }) = case_at(azimuth_deg, intent).ask(motion)
     else {
         panic!("{motion:?} from {azimuth_deg} is allowed");
     };
     assert_eq!(barrier, Barrier::KeepOut("mast".into()));
-    assert!((99.9..120.1).contains(&inside.azimuth_deg()), "{inside:?}");
-    assert_eq!(plain(at(azimuth_deg, intent)).ask(motion), Ok(()), "{motion:?}");
+    assert!((99.9..120.1).contains(&direction.azimuth_deg()), "{direction:?}");
+    assert_eq!(plain(case_at(azimuth_deg, intent)).ask(motion), Ok(()), "{motion:?}");
 }
 
 #[test]
@@ -70,7 +69,7 @@ fn a_motion_whose_beam_enters_is_refused_though_the_axes_stay_outside() {
 
 #[test]
 fn a_motion_whose_axes_enter_is_refused_though_the_beam_stays_outside() {
-    for case in [at(90.0, Intent::Position), plain(at(90.0, Intent::Position))] {
+    for case in [case_at(90.0, Intent::Position), plain(case_at(90.0, Intent::Position))] {
         let refused = case.ask(position(102.0, None));
         assert!(matches!(refused, Err(Refusal::Forbidden { .. })), "{refused:?}");
     }
@@ -80,7 +79,7 @@ fn a_motion_whose_axes_enter_is_refused_though_the_beam_stays_outside() {
 #[test]
 fn a_long_slew_is_judged_with_the_model_of_each_place() {
     let slew = |zone_deg: [f64; 2]| {
-        let mut case = at(80.0, Intent::Position);
+        let mut case = case_at(80.0, Intent::Position);
         case.antenna.pointing_model =
             PointingModel { tilt_east_deg: 5.0, ..PointingModel::default() };
         let [low_deg, high_deg] = zone_deg;
@@ -98,7 +97,7 @@ fn a_long_slew_is_judged_with_the_model_of_each_place() {
 #[test]
 fn the_beam_gets_out_by_hand_with_permission() {
     // The axes stand outside, but the beam is 1 degree inside.
-    let case = at(123.0, Intent::Manual);
+    let case = case_at(123.0, Intent::Manual);
     let mut gate = case.gate(&Arc::default());
     let now = case.now();
     let mast = Barrier::KeepOut("mast".into());
@@ -114,7 +113,7 @@ fn the_beam_gets_out_by_hand_with_permission() {
 
 #[test]
 fn the_axes_get_out_by_hand_where_only_they_are_inside() {
-    let case = at(103.0, Intent::Manual);
+    let case = case_at(103.0, Intent::Manual);
     let mut gate = case.gate(&Arc::default());
     let now = case.now();
     gate.let_out(Some(now.steady + Duration::from_mins(1)));

@@ -41,20 +41,20 @@ impl Kind {
         ];
         let travel_deg = travels_deg[dice.below(travels_deg.len())];
         let fast =
-            |dice: &mut Dice, from: f64, to: f64| from * (to / from).powf(dice.between(0.0, 1.0));
+            |dice: &mut Dice, min: f64, max: f64| min * (max / min).powf(dice.draw(0.0, 1.0));
         Self {
             travel_deg,
             rate_deg_s: fast(dice, 0.3, 20.0),
-            starts_after_s: dice.between(0.0, 2.0),
-            coasts_s: if dice.chance(0.3) { 0.0 } else { dice.between(0.0, 3.0) },
-            runs_s: if dice.chance(0.5) { 0.0 } else { dice.between(0.0, 0.2) },
-            anticipates: dice.between(0.8, 1.1),
+            starts_after_s: dice.draw(0.0, 2.0),
+            coasts_s: if dice.chance(0.3) { 0.0 } else { dice.draw(0.0, 3.0) },
+            runs_s: if dice.chance(0.5) { 0.0 } else { dice.draw(0.0, 0.2) },
+            anticipates: dice.draw(0.8, 1.1),
             leaves_deg: [0.1, 0.3, 0.5, 1.5][dice.below(4)],
-            noise_deg: if dice.chance(0.3) { 0.0 } else { dice.between(0.0, 0.3) },
+            noise_deg: if dice.chance(0.3) { 0.0 } else { dice.draw(0.0, 0.3) },
             step_deg: [0.01, 0.1, 1.0][dice.below(3)],
-            sway_deg: if dice.chance(0.6) { 0.0 } else { dice.between(0.1, 1.0) },
+            sway_deg: if dice.chance(0.6) { 0.0 } else { dice.draw(0.1, 1.0) },
             wraps: travel_deg.1 - travel_deg.0 >= 360.0 && dice.chance(0.3),
-            poll_s: 1.0 / dice.between(2.0, 10.0),
+            poll_s: 1.0 / dice.draw(2.0, 10.0),
         }
     }
 }
@@ -146,7 +146,7 @@ impl Plant {
         } else {
             0.0
         };
-        let wanted = match self.order {
+        let demand = match self.order {
             Order::Stop => None,
             Order::Run(share) => Some(share),
             Order::To(to_deg) => {
@@ -165,9 +165,9 @@ impl Plant {
             self.now_s - since_s < self.kind.runs_s && self.order != Order::Stop
         });
         // The unit gives up after three attempts.
-        let wanted = wanted.filter(|_| self.drive.is_some() || self.starts < 3);
+        let demand = demand.filter(|_| self.drive.is_some() || self.starts < 3);
         let before = self.drive;
-        self.drive = match (wanted, runs_on, self.drive) {
+        self.drive = match (demand, runs_on, self.drive) {
             (_, Some(runs_on), _) => Some(runs_on),
             (Some(way), _, Some((before, since_s))) if way * before > 0.0 => Some((way, since_s)),
             (Some(way), ..) => Some((way, self.now_s)),
@@ -196,13 +196,13 @@ impl Plant {
             self.rate_deg_s = 0.0;
         }
         if self.kind.sway_deg > 0.0 && dice.chance(0.02) {
-            self.gust_deg = dice.between(-0.5, 0.5) * self.kind.sway_deg;
+            self.gust_deg = dice.draw(-0.5, 0.5) * self.kind.sway_deg;
         }
     }
 
     /// Returns the currently reported angle, degrees.
     pub(super) fn read(&self, dice: &mut Dice) -> f64 {
-        let noise_deg = dice.between(-1.0, 1.0) * self.kind.noise_deg;
+        let noise_deg = dice.draw(-1.0, 1.0) * self.kind.noise_deg;
         let deg = self.deg + self.gust_deg + noise_deg;
         let deg = (deg / self.kind.step_deg).round() * self.kind.step_deg;
         if self.kind.wraps { deg.rem_euclid(360.0) } else { deg }

@@ -44,7 +44,7 @@ fn leave_tried_mark(folder: &Path, age_s: i64, tried: Option<i64>) -> Timestamp 
     let ago = |age_s| START - SignedDuration::from_secs(age_s);
     let (debts, mark) = (
         Debts::marked_in(Some(folder.to_owned())),
-        Mark { since: Some(ago(age_s)), tried: tried.map(ago) },
+        Mark { start: Some(ago(age_s)), tried: tried.map(ago) },
     );
     debts.mark(&Unit::new(&antenna()), 0, mark);
     // Wait until the worker has written the mark.
@@ -68,7 +68,7 @@ async fn seconds(seconds: u64) {
     }
 }
 
-fn told(handle: &mut AntennaHandle) -> Vec<Safety> {
+fn reports(handle: &mut AntennaHandle) -> Vec<Safety> {
     let events = std::iter::from_fn(|| handle.next_event());
     let matters = events.filter_map(|event| match event {
         Event::Safety(matter) => Some(matter),
@@ -80,24 +80,24 @@ fn told(handle: &mut AntennaHandle) -> Vec<Safety> {
 #[tokio::test(start_paused = true)]
 async fn after_a_restart_stop_is_the_first_word_to_what_was_moved_by_hand() {
     let folder = tempfile::tempdir().unwrap();
-    let since = leave_mark(folder.path(), 590);
+    let time = leave_mark(folder.path(), 590);
     let (control, mut handle, debts) = start(folder.path());
     seconds(5).await;
     assert_eq!(control.received()[0].1, "STOP=");
-    assert_eq!(told(&mut handle), [Safety::LeftMoving { start: Some(since), asks: false }]);
+    assert_eq!(reports(&mut handle), [Safety::LeftMoving { start: Some(time), asks: false }]);
     assert_eq!(debts.marked(&Unit::new(&antenna())), None, "standstill is proved");
 }
 
 #[tokio::test(start_paused = true)]
 async fn an_old_mark_asks_and_stays_until_the_operator_has_seen_it_stand() {
     let folder = tempfile::tempdir().unwrap();
-    let since = leave_mark(folder.path(), 610);
+    let time = leave_mark(folder.path(), 610);
     let (control, mut handle, debts) = start(folder.path());
     seconds(20).await;
     assert_eq!(stops(&control), 0);
-    assert_eq!(told(&mut handle), [Safety::LeftMoving { start: Some(since), asks: true }]);
-    assert_eq!(handle.snapshot().left_moving, Some(LeftMoving { start: Some(since) }));
-    let mark = Mark { since: Some(since), tried: None };
+    assert_eq!(reports(&mut handle), [Safety::LeftMoving { start: Some(time), asks: true }]);
+    assert_eq!(handle.snapshot().left_moving, Some(LeftMoving { start: Some(time) }));
+    let mark = Mark { start: Some(time), tried: None };
     assert_eq!(debts.marked(&Unit::new(&antenna())), Some(mark), "nothing is tried");
     handle.send(Command::SeenStanding).unwrap();
     seconds(1).await;
@@ -115,7 +115,7 @@ async fn a_mark_that_cannot_be_read_asks_and_names_no_time() {
     let (control, mut handle, _) = start(folder.path());
     seconds(5).await;
     assert_eq!(stops(&control), 0);
-    assert_eq!(told(&mut handle), [Safety::LeftMoving { start: None, asks: true }]);
+    assert_eq!(reports(&mut handle), [Safety::LeftMoving { start: None, asks: true }]);
     assert_eq!(handle.snapshot().left_moving, Some(LeftMoving { start: None }));
 }
 
@@ -124,8 +124,8 @@ async fn a_mark_that_cannot_be_read_asks_and_names_no_time() {
 async fn where_another_may_have_the_panel_a_mark_asks_however_young_it_is() {
     let (horn, folder) = (Antenna::rc2000c("Horn", "in memory"), tempfile::tempdir().unwrap());
     let debts = Debts::marked_in(Some(folder.path().to_owned()));
-    let since = START - SignedDuration::from_secs(20);
-    debts.mark(&Unit::new(&horn), 0, Mark { since: Some(since), tried: None });
+    let time = START - SignedDuration::from_secs(20);
+    debts.mark(&Unit::new(&horn), 0, Mark { start: Some(time), tried: None });
     while debts.mark_kept(&Unit::new(&horn)) == PromisedFile::Pending {
         std::thread::yield_now();
     }
@@ -138,21 +138,21 @@ async fn where_another_may_have_the_panel_a_mark_asks_however_young_it_is() {
         dialled.store(true, Ordering::Relaxed);
         Box::pin(async { Err(std::io::ErrorKind::ConnectionRefused.into()) })
     });
-    let session = Session::over(horn.controller(), &horn, dial, clock, wires, debts);
+    let session = Session::with_wires(horn.controller(), &horn, dial, clock, wires, debts);
     tokio::spawn(session.run());
     seconds(5).await;
-    assert_eq!(told(&mut handle), [Safety::LeftMoving { start: Some(since), asks: true }]);
+    assert_eq!(reports(&mut handle), [Safety::LeftMoving { start: Some(time), asks: true }]);
     assert!(!dials.load(Ordering::Relaxed));
 }
 
 #[tokio::test(start_paused = true)]
 async fn the_age_of_a_mark_counts_from_the_last_try() {
     let folder = tempfile::tempdir().unwrap();
-    let since = leave_tried_mark(folder.path(), 3600, Some(90));
+    let time = leave_tried_mark(folder.path(), 3600, Some(90));
     let (control, mut handle, _) = start(folder.path());
     seconds(5).await;
     assert_eq!(control.received()[0].1, "STOP=");
-    assert_eq!(told(&mut handle), [Safety::LeftMoving { start: Some(since), asks: false }]);
+    assert_eq!(reports(&mut handle), [Safety::LeftMoving { start: Some(time), asks: false }]);
 }
 
 #[tokio::test(start_paused = true)]
@@ -205,13 +205,13 @@ async fn a_mark_that_cannot_be_written_is_told_and_the_jog_goes_out() {
     seconds(5).await;
     // An unreadable mark counts as a mark of unknown age.
     handle.send(Command::SeenStanding).unwrap();
-    told(&mut handle);
+    reports(&mut handle);
     handle.send(Command::Manual).unwrap();
     for _ in 0..20 {
         handle.send(Command::Jog { rates_deg_s: [0.5, 0.0] }).unwrap();
         sleep(Duration::from_millis(50)).await;
     }
-    assert_eq!(told(&mut handle), [Safety::NoMark]);
+    assert_eq!(reports(&mut handle), [Safety::NoMark]);
     let is_moved = control.received().iter().any(|(_, payload)| payload.starts_with("MOVE="));
     assert!(is_moved, "{:?}", handle.snapshot());
 }
@@ -244,7 +244,7 @@ fn a_disk_that_hangs_does_not_hold_up_the_stop_that_is_owed_at_the_end() {
 async fn a_mark_that_the_disk_takes_late_does_not_outlive_standstill() {
     let folder = tempfile::tempdir().unwrap();
     let (promises, disk) = SlowDisk::new();
-    let debts = Debts::over(Some(folder.path().to_owned()), promises);
+    let debts = Debts::with_promises(Some(folder.path().to_owned()), promises);
     let (control, mut handle) = testing::start(debts.clone(), |wires| wires);
     seconds(5).await;
     handle.send(Command::Manual).unwrap();
@@ -254,7 +254,7 @@ async fn a_mark_that_the_disk_takes_late_does_not_outlive_standstill() {
         advance(50).await;
     }
     assert!(matches!(disk.begun(), FileState::Holds(_)));
-    assert_eq!(told(&mut handle), [Safety::NoMark]);
+    assert_eq!(reports(&mut handle), [Safety::NoMark]);
     let received = control.received();
     let (moved, _) = received.iter().find(|(_, payload)| payload.starts_with("MOVE=")).unwrap();
     let held_up = *moved - pressed;
@@ -273,19 +273,19 @@ async fn a_mark_that_the_disk_takes_late_does_not_outlive_standstill() {
 async fn a_stop_that_the_disk_does_not_take_says_why_until_it_does() {
     let folder = tempfile::tempdir().unwrap();
     let is_full = Arc::new(AtomicBool::new(true));
-    let debts = Debts::over(Some(folder.path().to_owned()), full_disk(&is_full));
+    let debts = Debts::with_promises(Some(folder.path().to_owned()), full_disk(&is_full));
     let (control, mut handle) = testing::start(debts.clone(), |wires| wires);
     seconds(5).await;
     control.set_fault(Fault::Silence, true);
     handle.stop();
     seconds(4).await;
-    let why = handle.snapshot().not_on_disk.clone().expect("a reason");
-    assert!(why.contains("no storage space"), "{why}");
-    assert_eq!(told(&mut handle), [Safety::NoMark, Safety::SilentInMotion]);
+    let reason = handle.snapshot().not_on_disk.clone().expect("a reason");
+    assert!(reason.contains("no storage space"), "{reason}");
+    assert_eq!(reports(&mut handle), [Safety::NoMark, Safety::SilentInMotion]);
     is_full.store(false, Ordering::Relaxed);
     seconds(12).await;
     assert_eq!(handle.snapshot().not_on_disk, None);
-    assert_eq!(told(&mut handle), [], "it is told once");
+    assert_eq!(reports(&mut handle), [], "it is told once");
     let next = Debts::marked_in(Some(folder.path().to_owned()));
     assert!(next.is_marked(&Unit::new(&antenna())));
 }
@@ -305,15 +305,15 @@ async fn a_stop_that_is_owed_is_on_disk_until_it_is_proved() {
     seconds(5).await;
     control.set_fault(Fault::Silence, true);
     handle.stop();
-    until("it is on disk", is_marked).await;
+    wait("it is on disk", is_marked).await;
     seconds(20).await;
     assert!(is_marked(), "the unit does not answer");
     control.set_fault(Fault::Silence, false);
-    until("standstill is proved", || !is_marked()).await;
+    wait("standstill is proved", || !is_marked()).await;
 }
 
 /// Waits until `is_it` holds. Also lets real time pass, for the disk.
-async fn until(what: &str, is_it: impl Fn() -> bool) {
+async fn wait(goal: &str, is_it: impl Fn() -> bool) {
     for _ in 0..2_000 {
         if is_it() {
             return;
@@ -321,5 +321,5 @@ async fn until(what: &str, is_it: impl Fn() -> bool) {
         sleep(Duration::from_millis(10)).await;
         std::thread::yield_now();
     }
-    panic!("{what}: never");
+    panic!("{goal}: never");
 }

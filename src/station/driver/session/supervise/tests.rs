@@ -25,10 +25,10 @@ enum Checks {
 type Scenario = fn(Checks) -> Pin<Box<dyn Future<Output = bool>>>;
 
 impl Session {
-    fn with_checks(self, which: Checks) -> Self {
+    fn with_checks(self, choice: Checks) -> Self {
         let place = |name: &str| CHECKS.iter().position(|check| check.name == name).unwrap();
         let mut checks = CHECKS.to_vec();
-        match which {
+        match choice {
             Checks::All => {}
             Checks::Without(name) => drop(checks.remove(place(name))),
             Checks::Exchanged([one, other]) => checks.swap(place(one), place(other)),
@@ -86,9 +86,10 @@ fn every_check_has_its_scenario_and_a_name_of_its_own() {
 async fn a_scenario_ends_as_it_should_only_with_its_check() {
     let mut faults = Vec::new();
     for (name, scenario) in TABLE {
-        let (with, without) = (scenario(Checks::All).await, scenario(Checks::Without(name)).await);
-        if (with, without) != (true, false) {
-            faults.push(format!("{name}: with it {with}, without it {without}"));
+        let (present, absent) =
+            (scenario(Checks::All).await, scenario(Checks::Without(name)).await);
+        if (present, absent) != (true, false) {
+            faults.push(format!("{name}: with it {present}, without it {absent}"));
         }
     }
     assert!(faults.is_empty(), "{faults:#?}");

@@ -54,9 +54,9 @@ impl Session {
     /// Returns the rotation from the modelled beam direction to the true one on the sky. Returns
     /// `None` unless the added offsets correct errors of the mount.
     pub(in crate::driver::session) fn unit_to_sky(&self, now: Moment) -> Option<DQuat> {
-        let meant = Some(self.meant_offsets()).filter(|meant| !meant.is_none())?;
+        let offsets = Some(self.meant_offsets()).filter(|offsets| !offsets.is_none())?;
         let judge = self.on_board_watch().filter(|_| self.program_is_on())?.judge();
-        let axes = meant.demanded(now.utc, |at| judge.direction(at))?;
+        let axes = offsets.demanded(now.utc, |time| judge.direction(time))?;
         let beam = self.setup.track_config().model.direction(axes);
         Some(DQuat::from_rotation_arc(beam.to_enu(), judge.direction(now.utc)?.to_enu()))
     }
@@ -68,7 +68,7 @@ impl Session {
         let can_undo = self.unit_offsets.last_earlier().is_some();
         let found = || {
             let shifted = shifted.filter(|shifted| shifted.is_found && !offsets.is_none())?;
-            Some(LeftOffsets::Found { start: shifted.since })
+            Some(LeftOffsets::Found { start: shifted.start })
         };
         let is_shown = is_changing || !offsets.is_none() || can_undo;
         is_shown.then(|| UnitOffsetsView {
@@ -83,11 +83,11 @@ impl Session {
     /// pass.
     pub(super) fn added_track_is_over(&self, now: Moment) -> bool {
         let added_to = self.owed.debts().shifted().and_then(|shifted| shifted.track);
-        let is_another = self.reported_track().zip(added_to).is_some_and(|(track, then)| {
+        let is_another = self.reported_track().zip(added_to).is_some_and(|(track, added)| {
             // The unit may report the window of the same pass slightly differently.
-            let is_later = add_seconds(then.until, APART_S) < track.until;
-            track.catalog_number != then.catalog_number
-                || is_later && then.until < self.unit_time(now)
+            let is_later = add_seconds(added.end, APART_S) < track.end;
+            track.catalog_number != added.catalog_number
+                || is_later && added.end < self.unit_time(now)
         });
         !self.may_track()
             || is_another && self.program_is_on() && !self.commanded.activity.is_pending()

@@ -38,7 +38,7 @@ impl Session {
     pub(super) fn reported_track(&self) -> Option<AddedTo> {
         let report = &self.gate.state().on_board;
         let catalog_number = report.satellite.as_ref()?.catalog_number;
-        Some(AddedTo { catalog_number, until: report.window?.1 })
+        Some(AddedTo { catalog_number, end: report.window?.1 })
     }
 
     /// Returns UTC by the clock of the unit.

@@ -23,8 +23,8 @@ const MAX_AGAIN: Duration = Duration::from_mins(10);
 pub(in crate::driver::session) struct Shifting {
     step: Step,
     /// Offsets that the operator wants, until they take effect.
-    wanted: Option<TrackOffsets>,
-    /// Previous values of `wanted`, for undo, the oldest first.
+    requested: Option<TrackOffsets>,
+    /// Previous values of `requested`, for undo, the oldest first.
     earlier: Vec<TrackOffsets>,
     /// Time of the last reading before a change failed to read back: the offsets are unknown until
     /// a later reading.
@@ -43,8 +43,8 @@ pub(super) enum Step {
     #[default]
     None,
     /// Record on disk, in progress, of the unit's previous offsets and of its offsets with
-    /// `wanted`.
-    Marking { wanted: TrackOffsets },
+    /// `requested`.
+    Marking { requested: TrackOffsets },
     /// Change on its way to the unit.
     Writing { ticket: u64 },
 }
@@ -73,17 +73,17 @@ impl Shifting {
     }
 
     pub(super) fn is_changing(&self) -> bool {
-        self.wanted.is_some() || !self.is_idle()
+        self.requested.is_some() || !self.is_idle()
     }
 
-    pub(super) fn wanted(&self) -> Option<TrackOffsets> {
-        self.wanted
+    pub(super) fn requested(&self) -> Option<TrackOffsets> {
+        self.requested
     }
 
     /// Returns `true` during the removal of all added offsets, by the operator or at the end of the
     /// track.
     pub(super) fn is_taking_back(&self) -> bool {
-        self.wanted.is_some_and(TrackOffsets::is_none)
+        self.requested.is_some_and(TrackOffsets::is_none)
     }
 
     /// Returns the offsets before the last change.
@@ -105,22 +105,22 @@ impl Shifting {
     }
 
     /// Requests the offsets that the operator wants, and forgets earlier failures.
-    pub(super) fn request(&mut self, wanted: TrackOffsets) {
+    pub(super) fn request(&mut self, requested: TrackOffsets) {
         self.forget_failures();
-        self.wanted = Some(wanted);
+        self.requested = Some(requested);
     }
 
     /// Requests the removal of all added offsets after the track.
     pub(super) fn take_back(&mut self) {
-        self.wanted = Some(TrackOffsets::NONE);
+        self.requested = Some(TrackOffsets::NONE);
     }
 
     pub(super) fn forget_failures(&mut self) {
         (self.left, self.again) = (None, None);
     }
 
-    pub(super) fn begin_marking(&mut self, wanted: TrackOffsets) {
-        self.step = Step::Marking { wanted };
+    pub(super) fn begin_marking(&mut self, requested: TrackOffsets) {
+        self.step = Step::Marking { requested };
     }
 
     pub(super) fn begin_writing(&mut self, ticket: u64) {
@@ -133,7 +133,7 @@ impl Shifting {
 
     /// Clears the request, because the wanted offsets are in effect.
     pub(super) fn is_in_force(&mut self) {
-        self.wanted = None;
+        self.requested = None;
     }
 
     pub(super) fn next_ticket(&mut self) -> u64 {
@@ -143,7 +143,7 @@ impl Shifting {
 
     /// Drops the wanted offsets, and the undo steps that would change nothing.
     pub(super) fn forget_wanted(&mut self, in_force: Option<TrackOffsets>) {
-        self.wanted = None;
+        self.requested = None;
         while self.earlier.last().is_some_and(|last| Some(*last) == in_force) {
             self.earlier.pop();
         }
@@ -219,7 +219,7 @@ impl Shifting {
             None => true,
             Some(LeftOffsets::Refused(_)) if !may_track => true,
             Some(LeftOffsets::Refused(_) | LeftOffsets::Failed(_) | LeftOffsets::Found { .. }) => {
-                self.again.is_none_or(|(at, _)| at <= now)
+                self.again.is_none_or(|(time, _)| time <= now)
             }
         }
     }

@@ -33,11 +33,11 @@ fn site() -> Site {
 /// Returns a high pass of the ISS.
 fn pass() -> OnBoardPass {
     let elements = read_elements(ELEMENTS).elements.swap_remove(0);
-    let (propagator, from) = (Propagator::new(&elements).unwrap(), elements.epoch());
+    let (propagator, start) = (Propagator::new(&elements).unwrap(), elements.epoch());
     let aos_elevation = Angle::from_degrees(10.0);
     let search = PassSearch {
         aos_elevation,
-        ..PassSearch::new(site(), from, add_seconds(from, 3.0 * 86_400.0))
+        ..PassSearch::new(site(), start, add_seconds(start, 3.0 * 86_400.0))
     };
     let is_high = |pass: &crate::orbit::Pass| pass.max_elevation().degrees() > 40.0;
     let pass = passes(&propagator, &search, &|| false).into_iter().find(is_high).unwrap();
@@ -62,7 +62,7 @@ fn unit(after_s: f64) -> (Control, Timestamp) {
 /// Starts a new run of the program at `now`.
 fn run(control: &Control, now: Timestamp, folder: &Path) -> AntennaHandle {
     let debts = Debts::marked_in(Some(folder.to_owned()));
-    let handle = testing::over(control.clone(), now, debts, |wires| wires);
+    let handle = testing::start_with(control.clone(), now, debts, |wires| wires);
     let OnBoardPass { elements, site, .. } = pass();
     handle.know_orbit(Some(Arc::new(KnownOrbit { elements, site })));
     handle
@@ -76,14 +76,14 @@ fn azimuth(degrees: f64) -> TrackOffsets {
     TrackOffsets::NONE.plus(Offset::Azimuth(Angle::from_degrees(degrees))).unwrap()
 }
 
-async fn until(handle: &AntennaHandle, what: &str, is_so: impl Fn(&Snapshot) -> bool) {
+async fn wait(handle: &AntennaHandle, goal: &str, is_so: impl Fn(&Snapshot) -> bool) {
     for _ in 0..12_000 {
         if is_so(&handle.snapshot()) {
             return;
         }
         sleep(Duration::from_millis(10)).await;
     }
-    panic!("not {what}: {:?}", handle.snapshot().unit_offsets);
+    panic!("not {goal}: {:?}", handle.snapshot().unit_offsets);
 }
 
 fn is_read(shown: &Snapshot) -> bool {
@@ -91,8 +91,8 @@ fn is_read(shown: &Snapshot) -> bool {
 }
 
 fn holds(shown: &Snapshot, azimuth_deg: f64) -> bool {
-    let held = shown.state.on_board.offsets;
-    held.is_some_and(|unit| (unit.azimuth_deg - azimuth_deg).abs() < 1e-9)
+    let offsets = shown.state.on_board.offsets;
+    offsets.is_some_and(|unit| (unit.azimuth_deg - azimuth_deg).abs() < 1e-9)
 }
 
 /// Sends a payload as another client.
@@ -112,9 +112,9 @@ fn sent(control: &Control) -> Vec<String> {
 /// Starts a session whose unit tracks the pass.
 async fn tracking(control: &Control, now: Timestamp, folder: &Path) -> AntennaHandle {
     let handle = run(control, now, folder);
-    until(&handle, "read", is_read).await;
+    wait(&handle, "read", is_read).await;
     handle.send(Command::Track(Box::new(pass()))).unwrap();
-    until(&handle, "tracking", |shown| {
+    wait(&handle, "tracking", |shown| {
         shown.state.program.is_some_and(|program| program.enabled) && !shown.pending
     })
     .await;
@@ -132,7 +132,7 @@ async fn left_in_a_pass(folder: &Path) -> (Control, Timestamp) {
     }
     let mark = mark(folder).expect("it is on the disk before it is on the unit");
     assert_eq!((mark.before, mark.put.last()), (TrackOffsets::NONE, Some(&azimuth(0.2))));
-    until(&handle, "in force", |shown| {
+    wait(&handle, "in force", |shown| {
         shown.unit_offsets.as_ref().is_some_and(|unit| unit.offsets == azimuth(0.2))
     })
     .await;
@@ -163,7 +163,7 @@ async fn what_an_earlier_run_left_is_taken_back_once_the_unit_does_not_track() {
     let (control, now) = left_in_a_pass(folder.path()).await;
     by_another(&control, "TRACK=,0").await;
     let handle = run(&control, now, folder.path());
-    until(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
+    wait(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
     assert_eq!(sent(&control).len(), 2, "one to add them, one to take them back");
     forgotten(folder.path()).await;
 }
@@ -173,12 +173,12 @@ async fn in_the_pass_that_goes_on_what_an_earlier_run_left_waits_for_its_end() {
     let folder = tempfile::tempdir().unwrap();
     let (control, now) = left_in_a_pass(folder.path()).await;
     let handle = run(&control, now, folder.path());
-    until(&handle, "told", is_found).await;
+    wait(&handle, "told", is_found).await;
     sleep(Duration::from_mins(2)).await;
     assert!(is_found(&handle.snapshot()) && control.state().is_tracking);
     assert_eq!(sent(&control).len(), 1, "it would move the antenna");
     by_another(&control, "TRACK=,0").await;
-    until(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
+    wait(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
     forgotten(folder.path()).await;
 }
 
@@ -188,15 +188,15 @@ async fn what_an_earlier_run_left_waits_while_the_unit_is_locked_out() {
     let (control, now) = left_in_a_pass(folder.path()).await;
     by_another(&control, "TRACK=,0").await;
     let handle = run(&control, now, folder.path());
-    let (by, reason) = ("Ada".to_owned(), "belts".to_owned());
+    let (operator, reason) = ("Ada".to_owned(), "belts".to_owned());
     handle
-        .send(Command::LockOut(crate::station::LockOut { operator: by, reason, start: now }))
+        .send(Command::LockOut(crate::station::LockOut { operator, reason, start: now }))
         .unwrap();
-    until(&handle, "told", is_found).await;
+    wait(&handle, "told", is_found).await;
     sleep(Duration::from_mins(1)).await;
     assert_eq!(sent(&control).len(), 1);
     handle.send(Command::Unlock).unwrap();
-    until(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
+    wait(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
 }
 
 #[tokio::test(start_paused = true)]
@@ -206,7 +206,7 @@ async fn a_unit_that_refuses_is_asked_again_by_the_next_start_too() {
     by_another(&control, "TRACK=,0").await;
     control.set_fault(Fault::RefuseSettings, true);
     let handle = run(&control, now, folder.path());
-    until(&handle, "told", |shown| {
+    wait(&handle, "told", |shown| {
         let unit = shown.unit_offsets.as_ref().filter(|unit| unit.offsets == azimuth(0.2));
         unit.is_some_and(|unit| matches!(unit.left, Some(LeftOffsets::Failed(_))))
     })
@@ -216,7 +216,7 @@ async fn a_unit_that_refuses_is_asked_again_by_the_next_start_too() {
     assert!(mark(folder.path()).is_some());
     control.set_fault(Fault::RefuseSettings, false);
     let handle = run(&control, add_seconds(now, 60.0), folder.path());
-    until(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
+    wait(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
     forgotten(folder.path()).await;
 }
 
@@ -227,21 +227,21 @@ async fn a_unit_that_applies_settings_late_is_watched_until_both_are_restored() 
     let handle = tracking(&control, now, folder.path()).await;
     let steps =
         [Offset::Azimuth(Angle::from_degrees(0.2)), Offset::Elevation(Angle::from_degrees(0.1))];
-    let both = steps.into_iter().try_fold(TrackOffsets::NONE, TrackOffsets::plus).unwrap();
+    let total = steps.into_iter().try_fold(TrackOffsets::NONE, TrackOffsets::plus).unwrap();
     for step in steps {
         handle.send(Command::Offset(OffsetChange::Step(step))).unwrap();
     }
-    until(&handle, "in force", |shown| {
-        shown.unit_offsets.as_ref().is_some_and(|unit| unit.offsets == both && !unit.is_changing)
+    wait(&handle, "in force", |shown| {
+        shown.unit_offsets.as_ref().is_some_and(|unit| unit.offsets == total && !unit.is_changing)
     })
     .await;
     control.set_fault(Fault::LateSettings, true);
     handle.stop();
     let half = |shown: &Snapshot| {
-        let held = shown.state.on_board.offsets;
-        holds(shown, 0.0) && held.is_some_and(|unit| (unit.elevation_deg - 0.1).abs() < 1e-9)
+        let offsets = shown.state.on_board.offsets;
+        holds(shown, 0.0) && offsets.is_some_and(|unit| (unit.elevation_deg - 0.1).abs() < 1e-9)
     };
-    until(&handle, "the azimuth alone is restored", half).await;
+    wait(&handle, "the azimuth alone is restored", half).await;
     sleep(Duration::from_secs(1)).await;
     assert!(mark(folder.path()).is_some(), "the elevation is still owed");
     let shown = handle.snapshot();
@@ -250,10 +250,10 @@ async fn a_unit_that_applies_settings_late_is_watched_until_both_are_restored() 
     // The unit drops the late settings.
     control.set_fault(Fault::LateSettings, false);
     let restored = |shown: &Snapshot| {
-        let held = shown.state.on_board.offsets;
-        holds(shown, 0.0) && held.is_some_and(|unit| unit.elevation_deg.abs() < 1e-9)
+        let offsets = shown.state.on_board.offsets;
+        holds(shown, 0.0) && offsets.is_some_and(|unit| unit.elevation_deg.abs() < 1e-9)
     };
-    until(&handle, "both are restored", restored).await;
+    wait(&handle, "both are restored", restored).await;
     forgotten(folder.path()).await;
 }
 
@@ -270,10 +270,10 @@ async fn an_offset_that_the_unit_applies_after_the_track_is_taken_back_too() {
     }
     handle.stop();
     let elevation = |shown: &Snapshot, degrees: f64| {
-        let held = shown.state.on_board.offsets;
-        held.is_some_and(|unit| (unit.elevation_deg - degrees).abs() < 1e-9)
+        let offsets = shown.state.on_board.offsets;
+        offsets.is_some_and(|unit| (unit.elevation_deg - degrees).abs() < 1e-9)
     };
-    until(&handle, "applied", |shown| elevation(shown, 0.2)).await;
+    wait(&handle, "applied", |shown| elevation(shown, 0.2)).await;
     for _ in 0..4 {
         sleep(Duration::from_secs(40)).await;
     }
@@ -304,7 +304,7 @@ async fn killed_at_any_step_of_an_offset_the_next_start_leaves_none_on_the_unit(
         }
         by_another(&control, &format!("SETTINGS=,?,?,{held_deg},?,?,?,?,?,?,?,?")).await;
         let handle = run(&control, now, killed.path());
-        until(&handle, step, |shown| holds(shown, 0.0) && shown.unit_offsets.is_none()).await;
+        wait(&handle, step, |shown| holds(shown, 0.0) && shown.unit_offsets.is_none()).await;
         forgotten(killed.path()).await;
         drop(handle);
         sleep(Duration::from_secs(5)).await;
@@ -320,14 +320,14 @@ async fn steps_that_come_while_one_is_recorded_are_recorded_too() {
     for _ in 0..5 {
         handle.send(Command::Offset(OffsetChange::Step(step))).unwrap();
     }
-    until(&handle, "in force", |shown| {
+    wait(&handle, "in force", |shown| {
         let unit = shown.unit_offsets.as_ref();
         unit.is_some_and(|unit| unit.offsets == azimuth(0.5) && !unit.is_changing)
     })
     .await;
     assert!(mark(folder.path()).unwrap().put.contains(&azimuth(0.5)));
     handle.stop();
-    until(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
+    wait(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
 }
 
 #[tokio::test(start_paused = true)]
@@ -342,18 +342,18 @@ async fn what_the_unit_makes_of_an_offset_is_known_and_taken_back() {
     }
     // Simulate a unit that stores other values than it receives.
     by_another(&control, "SETTINGS=,?,?,0.25,?,?,?,?,?,?,?,?").await;
-    until(&handle, "known", |shown| {
+    wait(&handle, "known", |shown| {
         let unit = shown.unit_offsets.as_ref();
         unit.is_some_and(|unit| unit.offsets == azimuth(0.25) && !unit.is_changing)
     })
     .await;
-    let told: Vec<Event> = std::iter::from_fn(|| handle.next_event()).collect();
+    let events: Vec<Event> = std::iter::from_fn(|| handle.next_event()).collect();
     let is_differing =
         |event: &Event| matches!(event, Event::OffsetNotTaken(WriteError::Differs(_)));
-    assert!(told.iter().any(is_differing), "{told:?}");
+    assert!(events.iter().any(is_differing), "{events:?}");
     assert!(mark(folder.path()).unwrap().put.contains(&azimuth(0.25)));
     handle.stop();
-    until(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
+    wait(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
 }
 
 #[tokio::test(start_paused = true)]
@@ -361,21 +361,21 @@ async fn in_the_pass_that_goes_on_they_are_found_too() {
     let folder = tempfile::tempdir().unwrap();
     let (control, now) = left_in_a_pass(folder.path()).await;
     let handle = run(&control, now, folder.path());
-    until(&handle, "told", |shown| {
+    wait(&handle, "told", |shown| {
         shown.unit_offsets.as_ref().is_some_and(|unit| unit.left.is_some())
     })
     .await;
     let until_watched = |shown: &Snapshot| shown.on_board.is_some();
-    until(&handle, "watched", until_watched).await;
+    wait(&handle, "watched", until_watched).await;
     let step = Offset::Azimuth(Angle::from_degrees(0.1));
     handle.send(Command::Offset(OffsetChange::Step(step))).unwrap();
-    until(&handle, "taken up", |shown| {
+    wait(&handle, "taken up", |shown| {
         let unit = shown.unit_offsets.as_ref();
         unit.is_some_and(|unit| unit.offsets == azimuth(0.3) && unit.left.is_none())
     })
     .await;
     handle.stop();
-    until(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
+    wait(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
 }
 
 #[tokio::test(start_paused = true)]
@@ -386,7 +386,7 @@ async fn what_the_unit_does_not_hold_any_more_is_not_offered() {
         by_another(&control, "TRACK=,0").await;
         by_another(&control, &format!("SETTINGS=,?,?,{azimuth_deg},?,?,?,?,?,?,?,?")).await;
         let handle = run(&control, now, folder.path());
-        until(&handle, "read", |shown| holds(shown, azimuth_deg)).await;
+        wait(&handle, "read", |shown| holds(shown, azimuth_deg)).await;
         sleep(Duration::from_secs(1)).await;
         assert_eq!(handle.snapshot().unit_offsets, None, "{azimuth_deg}");
         forgotten(folder.path()).await;
@@ -404,7 +404,7 @@ async fn without_a_record_nothing_is_written() {
     let step = Offset::Azimuth(Angle::from_degrees(0.2));
     handle.send(Command::Offset(OffsetChange::Step(step))).unwrap();
     sleep(Duration::from_secs(5)).await;
-    let told: Vec<Event> = std::iter::from_fn(|| handle.next_event()).collect();
-    assert!(told.contains(&Event::OffsetRefused(Refusal::NoOffsetsRecord)), "{told:?}");
+    let events: Vec<Event> = std::iter::from_fn(|| handle.next_event()).collect();
+    assert!(events.contains(&Event::OffsetRefused(Refusal::NoOffsetsRecord)), "{events:?}");
     assert_eq!((sent(&control).len(), handle.snapshot().unit_offsets.clone()), (0, None));
 }

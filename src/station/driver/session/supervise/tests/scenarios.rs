@@ -203,9 +203,9 @@ pub(super) async fn watch_standstill(checks: Checks) -> bool {
 
 pub(super) async fn watch_lock_out(checks: Checks) -> bool {
     let scene = satrak(checks).read().await;
-    let since = testing::START;
-    let (by, reason) = ("Ada".to_owned(), "gear".to_owned());
-    scene.send(Command::LockOut(LockOut { operator: by, start: since, reason }));
+    let start = testing::START;
+    let (operator, reason) = ("Ada".to_owned(), "gear".to_owned());
+    scene.send(Command::LockOut(LockOut { operator, start, reason }));
     scene.seconds(0.1).await;
     scene.shows(10.0, |shown| !shown.locking).await
 }
@@ -224,7 +224,8 @@ pub(super) async fn watch_unit_offsets(checks: Checks) -> bool {
         return false;
     }
     scene.send(Command::Offset(OffsetChange::Step(Offset::Azimuth(Angle::from_degrees(1.0)))));
-    let is_on = |shown: &Snapshot| shown.unit_offsets.as_ref().is_some_and(|it| !it.is_changing);
+    let is_on =
+        |shown: &Snapshot| shown.unit_offsets.as_ref().is_some_and(|view| !view.is_changing);
     scene.shows(20.0, is_on).await
 }
 
@@ -282,11 +283,11 @@ pub(super) async fn start_after_halt(checks: Checks) -> Duration {
     let scene = genius(checks).read().await;
     scene.send(turn_to(100.0));
     assert!(scene.shows(5.0, is_moving).await);
-    let (sent, asked) = (scene.sent("|A"), Instant::now());
+    let (sent, start) = (scene.sent("|A"), Instant::now());
     scene.send(turn_to(200.0));
     while scene.sent("|A") == sent {
         scene.seconds(0.001).await;
-        assert!(asked.elapsed() < Duration::from_secs(30));
+        assert!(start.elapsed() < Duration::from_secs(30));
     }
-    asked.elapsed()
+    start.elapsed()
 }

@@ -130,7 +130,8 @@ impl<U: Unit> Scene<U> {
             Wires::new(&antenna, bounds, steady, Arc::new(|| {}), &Orders::default());
         let wires = wires.hearing(sleeps.hear());
         let controller = antenna.controller();
-        let session = Session::over(controller, &antenna, dial, clock, wires, Debts::default());
+        let session =
+            Session::with_wires(controller, &antenna, dial, clock, wires, Debts::default());
         tokio::spawn(session.with_checks(checks).run());
         Self { unit, handle, sleeps, antenna, network_is_off, link_is_stalled, readings }
     }

@@ -93,7 +93,7 @@ impl Session {
     /// the park position if that is nearer.
     pub(super) fn move_away(&mut self, now: Moment) {
         let has_elevation = self.setup.can().has_elevation();
-        let to = |direction: AzEl| Motion::Position {
+        let motion_to = |direction: AzEl| Motion::Position {
             azimuth: Some(direction.azimuth),
             elevation: has_elevation.then_some(direction.elevation),
         };
@@ -103,14 +103,15 @@ impl Session {
         let bounds = self.gate.bounds();
         // The antenna must reach the direction, on a path without a corner.
         let way = |direction: AzEl, intent: Intent, budget: &Budget| {
-            let motion = self.gate.nearest(to(direction)).ok()?;
+            let motion = self.gate.nearest(motion_to(direction)).ok()?;
             let route = self.gate.route_within(motion, intent, budget, now).ok()?;
-            Some((direction, route.then.is_none()))
+            Some((direction, route.second.is_none()))
         };
         let budget = Budget::default();
         // Without an elevation axis, the antenna reaches only its own elevation.
-        let is_reached =
-            |at: &AzEl| has_elevation || (at.elevation - here.elevation).degrees().abs() < 1e-6;
+        let is_reached = |direction: &AzEl| {
+            has_elevation || (direction.elevation - here.elevation).degrees().abs() < 1e-6
+        };
         let refuges = bounds.refuges(here, now.utc).filter(is_reached).take(MAX_REFUGES);
         let refuges = refuges.take_while(|_| !budget.is_spent());
         let mut round_a_corner = None;
@@ -130,8 +131,8 @@ impl Session {
                 && way(*park, Intent::Park, &Budget::default()).is_some()
         });
         match (park, refuge) {
-            (Some(park), _) => self.go_to(to(park), Intent::Park, now),
-            (None, Some(refuge)) => self.go_to(to(refuge), Intent::Position, now),
+            (Some(park), _) => self.go_to(motion_to(park), Intent::Park, now),
+            (None, Some(refuge)) => self.go_to(motion_to(refuge), Intent::Position, now),
             (None, None) => self.tell(Event::NotSent(Refusal::NoRefuge)),
         }
     }

@@ -1,6 +1,6 @@
 //! Release of a unit to others, and its return on the operator's request.
 
-use super::{Session, activity::Activity, contact::Wanted, io_loop::MIN_WAIT, wires::Input};
+use super::{Session, activity::Activity, contact::LinkNeed, io_loop::MIN_WAIT, wires::Input};
 use crate::contract::driver::{Event, Refusal};
 
 impl Session {
@@ -9,7 +9,7 @@ impl Session {
         self.contact.let_go();
         self.gate.watch_anew();
         let clock = self.clock.clone();
-        while self.contact.wanted() == Wanted::No {
+        while self.contact.link_need() == LinkNeed::No {
             let now = self.now();
             self.forget_old_stop(now);
             self.publish(now);
@@ -29,7 +29,7 @@ impl Session {
                 Input::Over => return false,
                 Input::Stop => {
                     self.stop_and_void(now);
-                    self.contact.want(Wanted::ForStop);
+                    self.contact.want(LinkNeed::ForStop);
                 }
                 Input::Command(numbered) => {
                     self.carry_out_numbered(numbered, now, Self::carry_out_offline);
@@ -55,7 +55,7 @@ impl Session {
             let now = self.now();
             self.halt_quietly(now);
         }
-        self.contact.want(Wanted::No);
+        self.contact.want(LinkNeed::No);
         self.contact.silence.forget();
         self.commanded.activity = Activity::Standby;
         true
