@@ -331,7 +331,7 @@ impl Driver {
         );
         wires.begin_with(learned, lock_out);
         let wires = match &self.thread {
-            Some(thread) => wires.hearing(thread.before_sleep.hear()),
+            Some(thread) => wires.with_sleep(thread.before_sleep.subscribe()),
             None => wires,
         };
         let Outside { clock, dial, .. } = self.outside.clone();
@@ -346,9 +346,9 @@ impl Driver {
             let lock_out = wires.shown_lock_out();
             let session =
                 Session::with_wires(controller, &antenna, dial, clock.clone(), wires, debts)
-                    .locked_out(lock_out);
+                    .with_lock_out(lock_out);
             match &dead_man {
-                Some(program) => session.guarded_by(program.clone()),
+                Some(program) => session.with_dead_man(program.clone()),
                 None => session,
             }
         };

@@ -60,7 +60,7 @@ impl Rig {
     pub(super) fn start_locked_out(antenna: &Antenna, lock_out: LockOut) -> Self {
         Self::new(Control::new(&Options::default()), Timestamp::UNIX_EPOCH, |dial, clock| {
             let (session, handle) = rig::session(antenna, dial, clock);
-            (session.locked_out(Some(lock_out)), handle)
+            (session.with_lock_out(Some(lock_out)), handle)
         })
     }
 

@@ -44,7 +44,7 @@ impl Rig {
         Self::over(control, utc_origin, link, |dial, clock| {
             let (session, handle) = session(antenna, dial, clock);
             handle.know_orbit(Some(orbit(25_544)));
-            (session.locked_out(lock_out), handle)
+            (session.with_lock_out(lock_out), handle)
         })
     }
 

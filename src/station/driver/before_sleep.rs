@@ -27,7 +27,7 @@ pub(super) struct BeforeSleep(Arc<Mutex<Vec<mpsc::Sender<Awake>>>>);
 
 impl BeforeSleep {
     /// Returns the channel of a new session.
-    pub(super) fn hear(&self) -> mpsc::Receiver<Awake> {
+    pub(super) fn subscribe(&self) -> mpsc::Receiver<Awake> {
         let (tell, hear) = mpsc::channel(1);
         let mut sessions = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         sessions.retain(|session| !session.is_closed());
@@ -37,7 +37,7 @@ impl BeforeSleep {
 
     /// Informs all sessions, then waits with a timeout until they have ended every motion that
     /// would not end otherwise.
-    pub(super) async fn all_quiet(&self) {
+    pub(super) async fn wait_until_quiet(&self) {
         let (awake, mut all_quiet) = mpsc::channel(1);
         for session in &*self.0.lock().unwrap_or_else(PoisonError::into_inner) {
             // The queue is full: a pending message already makes this session end its motion.
@@ -54,7 +54,7 @@ impl BeforeSleep {
 #[cfg(target_os = "linux")]
 pub(super) fn watch(sessions: BeforeSleep, runtime: tokio::runtime::Handle) -> std::io::Result<()> {
     std::thread::Builder::new().name("azel-sleep".to_owned()).spawn(move || {
-        let quiet = || runtime.block_on(sessions.all_quiet());
+        let quiet = || runtime.block_on(sessions.wait_until_quiet());
         let mut was_watched = false;
         loop {
             match logind::system_bus().and_then(|bus| logind::watch(&bus, quiet)) {
@@ -230,8 +230,8 @@ mod tests {
     #[tokio::test(start_paused = true)]
     async fn a_held_jog_is_ended_and_the_sleep_waits_for_proved_standstill() {
         let sleeps = BeforeSleep::default();
-        let hear = sleeps.hear();
-        let (unit, mut handle) = testing::start(Debts::default(), |wires| wires.hearing(hear));
+        let hear = sleeps.subscribe();
+        let (unit, mut handle) = testing::start(Debts::default(), |wires| wires.with_sleep(hear));
         seconds(3.0).await;
         handle.send(Command::Manual).unwrap();
         let hold = || handle.send(Command::Jog { rates_deg_s: [2.0, 0.0] }).unwrap();
@@ -241,7 +241,7 @@ mod tests {
         }
         assert!(unit.state().is_moving, "{:?}", unit.received());
         let begun = Instant::now();
-        timeout(MAX, sleeps.all_quiet()).await.unwrap();
+        timeout(MAX, sleeps.wait_until_quiet()).await.unwrap();
         assert!(begun.elapsed() < MAX, "it did not wait in vain");
         assert!(!unit.state().is_moving);
         // The held key must not move the antenna again after the sleep.
@@ -257,14 +257,14 @@ mod tests {
     #[tokio::test(start_paused = true)]
     async fn an_antenna_that_nobody_moves_puts_off_nothing() {
         let sleeps = BeforeSleep::default();
-        let hear = sleeps.hear();
-        let (_unit, _handle) = testing::start(Debts::default(), |wires| wires.hearing(hear));
+        let hear = sleeps.subscribe();
+        let (_unit, _handle) = testing::start(Debts::default(), |wires| wires.with_sleep(hear));
         seconds(3.0).await;
         let begun = Instant::now();
-        sleeps.all_quiet().await;
+        sleeps.wait_until_quiet().await;
         assert!(begun.elapsed() < Duration::from_millis(100));
         // A session that is over must not delay the sleep either.
-        drop(sleeps.hear());
-        sleeps.all_quiet().await;
+        drop(sleeps.subscribe());
+        sleeps.wait_until_quiet().await;
     }
 }

@@ -55,7 +55,7 @@ pub(in crate::driver) struct Mark {
 
 impl Mark {
     /// Returns the last time at which a session is known to have attended to the unit.
-    pub(in crate::driver) fn last_tried(self) -> Option<Timestamp> {
+    pub(in crate::driver) fn last_attempt(self) -> Option<Timestamp> {
         self.tried.max(self.start)
     }
 }
@@ -78,7 +78,7 @@ struct AutoTrack {
 
 impl Ledger {
     /// Returns the STOP trigger of a newer session of the same unit.
-    fn newer(&self, unit: &Unit, session: u64) -> Option<&Arc<Notify>> {
+    fn newer_stop(&self, unit: &Unit, session: u64) -> Option<&Arc<Notify>> {
         let newest = self.sessions.get(unit).filter(|(number, _)| *number > session);
         newest.map(|(_, stop)| stop)
     }
@@ -129,7 +129,7 @@ impl Debts {
             let auto_track = found::<AutoTrack>(folder, AUTO_TRACK, "a unit may track by itself");
             ledger.auto_track.extend(auto_track.into_iter().map(|(unit, _)| unit));
             let shifted = found(folder, OFFSETS, "a unit may still hold offsets of a pass");
-            ledger.shifted.extend(shifted.into_iter().map(ShiftedTrack::left));
+            ledger.shifted.extend(shifted.into_iter().map(ShiftedTrack::mark_found));
         }
         debts
     }
@@ -149,7 +149,7 @@ impl Debts {
     }
 
     /// Waits until the disk has stored or refused the last requested state of every file of `unit`.
-    pub(super) async fn settled(&self, unit: &Unit) {
+    pub(super) async fn wait_for_disk(&self, unit: &Unit) {
         let paths = [STOP, AUTO_TRACK, OFFSETS].map(|ending| self.path(unit, ending));
         let paths: Vec<PathBuf> = paths.into_iter().flatten().collect();
         self.promises.settled(&paths).await;
@@ -181,7 +181,7 @@ impl Debts {
     /// there is none.
     pub(super) fn hand_over(&self, unit: &Unit, session: u64) -> bool {
         let ledger = self.ledger();
-        let newer = ledger.newer(unit, session);
+        let newer = ledger.newer_stop(unit, session);
         if let Some(stop) = newer {
             stop.notify_one();
         }
@@ -190,7 +190,7 @@ impl Debts {
 
     /// Returns `true` if there is a newer session of the same unit than `session`.
     pub(super) fn is_followed(&self, unit: &Unit, session: u64) -> bool {
-        self.ledger().newer(unit, session).is_some()
+        self.ledger().newer_stop(unit, session).is_some()
     }
 
     /// Records that `unit` must not track on its own.
@@ -348,7 +348,7 @@ fn found<T: DeserializeOwned>(folder: &Path, ending: &str, meaning: &str) -> Vec
             .ok()?;
         Some((unit, debt))
     };
-    files(folder).filter(|path| ending_of(path) == Some(ending)).filter_map(read).collect()
+    files(folder).filter(|path| file_ending(path) == Some(ending)).filter_map(read).collect()
 }
 
 fn files(folder: &Path) -> impl Iterator<Item = PathBuf> {
@@ -357,7 +357,7 @@ fn files(folder: &Path) -> impl Iterator<Item = PathBuf> {
 }
 
 /// Returns the name ending of a debt file; prefers the longest match.
-fn ending_of(path: &Path) -> Option<&'static str> {
+fn file_ending(path: &Path) -> Option<&'static str> {
     let name = path.file_name()?.to_string_lossy();
     [AUTO_TRACK, OFFSETS, STOP].into_iter().find(|ending| name.ends_with(ending))
 }
@@ -388,7 +388,7 @@ fn lowercase_names(folder: &Path, promises: &Promises) {
 
 /// Returns the name and text of a file with its address in lower case, if the address has capitals.
 fn with_lowercase_address(path: &Path) -> io::Result<Option<(String, String)>> {
-    let Some(ending) = ending_of(path) else { return Ok(None) };
+    let Some(ending) = file_ending(path) else { return Ok(None) };
     let text = fs::read_to_string(path)?;
     // The reader reports unreadable files.
     let Ok(mut table) = toml::from_str::<toml::Table>(&text) else { return Ok(None) };

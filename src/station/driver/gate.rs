@@ -172,19 +172,19 @@ impl Gate {
     }
 
     /// Records a motion that another session started at this time without proving standstill.
-    pub(super) fn was_moved(&mut self, moved_at: Option<Instant>) {
+    pub(super) fn note_earlier_motion(&mut self, moved_at: Option<Instant>) {
         self.unproved_since = moved_at;
         if let Some(moved_at) = moved_at {
             // A debt records the time of the motion, but not its target.
-            self.watch.commanded([Some(Lead::Anywhere); 2], moved_at);
+            self.watch.note_command([Some(Lead::Anywhere); 2], moved_at);
         }
     }
 
-    pub(super) fn proved_still(&mut self) {
+    pub(super) fn clear_unproved(&mut self) {
         self.unproved_since = None;
         // A motion that ended without a halt, such as a track of the unit, turns no axis any more.
         self.turns = [false; 2];
-        self.watch.stands();
+        self.watch.note_rest();
     }
 
     /// Returns the angles of the axes at the start of the last motion, degrees as the mount counts.
@@ -202,12 +202,12 @@ impl Gate {
     }
 
     /// Records a halt, which ends the last motion.
-    pub(super) fn halted(&mut self) {
+    pub(super) fn note_halt(&mut self) {
         self.turns = [false; 2];
     }
 
     /// Returns the axes that Azel's last motion turns.
-    pub(super) fn turns(&self) -> [bool; 2] {
+    pub(super) fn turning_axes(&self) -> [bool; 2] {
         self.turns
     }
 
@@ -219,7 +219,7 @@ impl Gate {
     /// Records the target of a motion. A program track commands one axis while the other axis is
     /// still turning.
     fn remember_target(&mut self, motion: Motion, intent: Intent, now: Moment) {
-        let (sent_to_deg, turned) = (self.sent_to(motion, now), self.turned_by(motion));
+        let (sent_to_deg, turned) = (self.end_angles(motion, now), self.moved_axes(motion));
         let goes_on = intent == Intent::Track && matches!(motion, Motion::Position { .. });
         let axes = self.to_deg.iter_mut().zip(&mut self.turns).zip(sent_to_deg).zip(turned);
         for (((to_deg, turns), sent_to_deg), is_turned) in axes {
@@ -229,7 +229,7 @@ impl Gate {
         }
     }
 
-    fn turned_by(&self, motion: Motion) -> [bool; 2] {
+    fn moved_axes(&self, motion: Motion) -> [bool; 2] {
         match motion {
             Motion::Jog { x_deg_s: x, y_deg_s: y } | Motion::Step { x_deg: x, y_deg: y } => {
                 [x, y].map(|turn| turn != 0.0)
@@ -271,7 +271,7 @@ impl Gate {
     /// age of the position, the time until the next position, and the overrun.
     pub(super) fn ahead_s(&self, now: Moment) -> f64 {
         let Some(measured) = self.state().measured else { return self.overrun_s };
-        let requested = self.angles_asked().unwrap_or(measured.requested);
+        let requested = self.oldest_request().unwrap_or(measured.requested);
         let age = now.steady.saturating_duration_since(requested);
         let reply = measured.received.saturating_duration_since(measured.requested);
         // Azel judges a motion again when the next position arrives, which may take as long as the
@@ -388,7 +388,7 @@ impl Gate {
                 Check::MovingAct(check) => check(&act, &situation),
                 _ => Ok(()),
             })?;
-            self.to_deg = self.end_of(&act);
+            self.to_deg = self.action_end(&act);
             self.watch_act(&act, now);
             self.turns = [true; 2];
             self.unproved_since = Some(now.steady);

@@ -26,7 +26,7 @@ pub trait Stream: AsyncRead + AsyncWrite + Send + Unpin {
     fn duplicate(&self) -> io::Result<Option<Duplicate>>;
 
     /// Returns `bytes` in the form of the lowest layer of the link, parity included.
-    fn on_wire(&self, bytes: &[u8]) -> Vec<u8> {
+    fn encode(&self, bytes: &[u8]) -> Vec<u8> {
         bytes.to_vec()
     }
 }
@@ -39,12 +39,12 @@ impl Stream for DuplexStream {
 }
 
 #[cfg(unix)]
-fn duplicate_of(link: &impl std::os::fd::AsFd) -> io::Result<Option<Duplicate>> {
+fn duplicate_handle(link: &impl std::os::fd::AsFd) -> io::Result<Option<Duplicate>> {
     link.as_fd().try_clone_to_owned().map(Some)
 }
 
 #[cfg(not(unix))]
-fn duplicate_of<T>(_: &T) -> io::Result<Option<Duplicate>> {
+fn duplicate_handle<T>(_: &T) -> io::Result<Option<Duplicate>> {
     Err(io::ErrorKind::Unsupported.into())
 }
 

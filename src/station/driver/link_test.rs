@@ -6,7 +6,7 @@ use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
 
 use super::{
     Outside, Stream, UnitLock,
-    session::{CONNECT, MIN_WAIT, WRITE, in_words},
+    session::{CONNECT, MIN_WAIT, WRITE, error_text},
 };
 use crate::{
     clock::Clock,
@@ -124,6 +124,6 @@ fn link_fault(error: &io::Error) -> LinkFault {
         io::ErrorKind::NotFound => LinkFault::NoSuchPort,
         io::ErrorKind::PermissionDenied => LinkFault::NotPermitted,
         io::ErrorKind::ResourceBusy => LinkFault::Busy,
-        _ => LinkFault::Other(in_words(error)),
+        _ => LinkFault::Other(error_text(error)),
     }
 }

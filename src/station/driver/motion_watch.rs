@@ -85,60 +85,60 @@ impl MotionWatch {
 
     /// Records an outgoing motion that leads each axis to its lead; an axis with `None` keeps its
     /// motions.
-    pub(super) fn commanded(&mut self, leads: [Option<Lead>; 2], now: Instant) {
+    pub(super) fn note_command(&mut self, leads: [Option<Lead>; 2], now: Instant) {
         self.sent += 1;
         for (axis, lead) in self.axes.iter_mut().zip(leads) {
             if let Some(lead) = lead {
-                axis.commanded(lead, self.sent, now);
+                axis.note_command(lead, self.sent, now);
             }
         }
     }
 
     /// Records that the unit accepted the oldest unanswered motion, which ends the motions before
     /// it.
-    pub(super) fn accepted(&mut self, now: Instant) {
+    pub(super) fn note_acceptance(&mut self, now: Instant) {
         self.answered = (self.answered + 1).min(self.sent);
         for axis in &mut self.axes {
-            axis.accepted(self.answered, now);
+            axis.note_acceptance(self.answered, now);
         }
     }
 
     /// Records that the unit refused the oldest unanswered motion, or that its outcome is unknown.
-    pub(super) fn not_accepted(&mut self) {
+    pub(super) fn note_refusal(&mut self) {
         self.answered = (self.answered + 1).min(self.sent);
     }
 
     /// Records that the link is gone and no answer will come.
-    pub(super) fn not_answered(&mut self) {
+    pub(super) fn note_lost_answers(&mut self) {
         self.answered = self.sent;
     }
 
     /// Records that both axes stand: a motion without a known end is over.
-    pub(super) fn stands(&mut self) {
+    pub(super) fn note_rest(&mut self) {
         for axis in &mut self.axes {
-            axis.stands();
+            axis.note_rest();
         }
     }
 
     /// Records proved standstill of both axes after a halt: no motion continues.
-    pub(super) fn proved_still(&mut self, now: Instant) {
+    pub(super) fn note_standstill(&mut self, now: Instant) {
         self.answered = self.sent;
         for axis in &mut self.axes {
-            axis.proved_still(now);
+            axis.note_standstill(now);
         }
     }
 
     /// Restarts the watch after a time without readings: the next reading is the new reference.
-    pub(super) fn start_anew(&mut self) {
+    pub(super) fn restart(&mut self) {
         for axis in &mut self.axes {
-            axis.start_anew();
+            axis.restart();
         }
     }
 
     /// Records that the unit's own program may move both axes.
-    pub(super) fn opened(&mut self, now: Instant) {
+    pub(super) fn open(&mut self, now: Instant) {
         for axis in &mut self.axes {
-            axis.opened(now);
+            axis.open(now);
         }
     }
 

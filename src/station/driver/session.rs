@@ -72,7 +72,7 @@ use crate::{
 use commanded::Commanded;
 use contact::{Contact, Pace};
 use guard::Guard;
-pub(super) use io_loop::{CONNECT, MIN_WAIT, WRITE, in_words};
+pub(super) use io_loop::{CONNECT, MIN_WAIT, WRITE, error_text};
 pub use jog::LEASE as JOG_LEASE;
 use jog_key::Jog;
 use judging::Judging;
@@ -135,7 +135,7 @@ impl Session {
         let mut gate = Gate::new(controller, antenna, bounds, &learned);
         let contact = Contact::new(antenna, dial, clock.now().steady);
         let owed = Owed::begin(debts, Unit::new(antenna), wires.stop_handle());
-        gate.was_moved(owed.debts().unproved_since());
+        gate.note_earlier_motion(owed.debts().unproved_since());
         Self {
             setup: Setup::new(antenna),
             clock,
@@ -155,7 +155,7 @@ impl Session {
 
     /// Sets `program` as the dead-man of manual motions.
     #[must_use]
-    pub fn guarded_by(self, program: PathBuf) -> Self {
+    pub fn with_dead_man(self, program: PathBuf) -> Self {
         Self { stop: Stop::new(Guard::new(Some(program))), ..self }
     }
 
@@ -184,10 +184,10 @@ impl Session {
             unproved: self.is_unproved(),
             lock_out: self.gate.lock_out().cloned(),
             locking: self.is_being_locked_out(),
-            stop: self.stop.shown(now.steady),
+            stop: self.stop.state(now.steady),
             runs_out: self.stop.is_under_way(),
             unguarded: self.stop.guard.is_missing(),
-            breach: self.observed.place.view(&axes, self.gate.lets_out(now)),
+            breach: self.observed.place.view(&axes, self.gate.permits_exit(now)),
             sun_lifted: self.commanded.activity.program().is_some() && self.gate.lifts_sun(),
             left_moving: self.owed.left_moving(),
             not_on_disk: is_pressed.then(|| self.owed.not_on_disk(now.steady)).flatten(),
@@ -243,7 +243,7 @@ impl Session {
     }
 
     /// Returns `true` if the antenna turns; ignores other motions of the unit.
-    fn turns(&self) -> bool {
+    fn is_turning(&self) -> bool {
         let count = self.setup.can().axis_count();
         let axes = self.gate.state().measured.into_iter().flat_map(|measured| measured.axes);
         axes.take(count).any(|axis| axis.motion != AxisMotion::Still)
@@ -251,7 +251,7 @@ impl Session {
 
     /// Returns `true` if the antenna moves, or a motion has been sent or queued.
     fn may_move(&mut self) -> bool {
-        self.turns()
+        self.is_turning()
             || self.gate.state().program.is_some_and(|program| program.enabled)
             || self.commanded.may_move()
             // The last motion may continue until Azel has read the unit on the new link.
@@ -260,7 +260,7 @@ impl Session {
     }
 
     /// Returns `true` if the last reading showed a present or imminent motion of the unit.
-    fn active(&self) -> bool {
+    fn is_active(&self) -> bool {
         let state = self.gate.state();
         state.measured.is_some_and(|measured| measured.moving())
             || state.program.is_some_and(|program| program.enabled)

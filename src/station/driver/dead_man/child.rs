@@ -68,7 +68,7 @@ fn beat_ends(input: BorrowedFd<'_>) -> bool {
         if left.is_zero() {
             return true;
         }
-        match poll(&mut [PollFd::new(input, PollFlags::POLLIN)], in_time(left)) {
+        match poll(&mut [PollFd::new(input, PollFlags::POLLIN)], poll_timeout(left)) {
             Err(Errno::EINTR) => continue,
             Ok(0) | Err(_) => return true,
             Ok(_) => {}
@@ -87,7 +87,7 @@ fn beat_ends(input: BorrowedFd<'_>) -> bool {
 }
 
 /// Converts the remaining time, rounded up so that the time is over when the poll ends.
-fn in_time(left: Duration) -> PollTimeout {
+fn poll_timeout(left: Duration) -> PollTimeout {
     PollTimeout::try_from(left + Duration::from_millis(1)).unwrap_or(PollTimeout::MAX)
 }
 
@@ -122,5 +122,5 @@ fn insist(stop: &[u8]) {
 
 fn wait_for(link: &OwnedFd, deadline: Instant) {
     let left = deadline.saturating_duration_since(Instant::now());
-    poll(&mut [PollFd::new(link.as_fd(), PollFlags::POLLOUT)], in_time(left)).ok();
+    poll(&mut [PollFd::new(link.as_fd(), PollFlags::POLLOUT)], poll_timeout(left)).ok();
 }

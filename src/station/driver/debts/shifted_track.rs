@@ -43,7 +43,7 @@ pub(in crate::driver) struct AddedTo {
 
 impl ShiftedTrack {
     /// Marks the record as coming from an earlier run.
-    pub(super) fn left((unit, shifted): (Unit, Self)) -> (Unit, Self) {
+    pub(super) fn mark_found((unit, shifted): (Unit, Self)) -> (Unit, Self) {
         (unit, Self { is_found: true, ..shifted })
     }
 
@@ -65,7 +65,7 @@ impl ShiftedTrack {
 
     /// Removes each component that somebody else has set according to `current`, because Azel
     /// leaves such a component alone. Returns `None` if none remains.
-    pub(in crate::driver) fn without_foreign(self, current: TrackOffsets) -> Option<Self> {
+    pub(in crate::driver) fn drop_foreign(self, current: TrackOffsets) -> Option<Self> {
         let restored = |component: fn(TrackOffsets) -> Angle| {
             component(if self.may_hold(component, current) { self.before } else { current })
         };
@@ -76,7 +76,7 @@ impl ShiftedTrack {
     }
 
     /// Records that the unit may have `offsets` from now on.
-    pub(in crate::driver) fn may_be(&mut self, offsets: TrackOffsets) {
+    pub(in crate::driver) fn record(&mut self, offsets: TrackOffsets) {
         self.put.retain(|other| *other != offsets);
         if self.put.len() >= MAX_PUT {
             self.put.remove(0);
@@ -127,7 +127,9 @@ impl Debts {
         let found =
             match self.promises.read(&path).map(|text| text.map(|text| toml::from_str(&text))) {
                 Ok(None) => None,
-                Ok(Some(Ok(Record { unit, debt }))) => Some(ShiftedTrack::left((unit, debt)).1),
+                Ok(Some(Ok(Record { unit, debt }))) => {
+                    Some(ShiftedTrack::mark_found((unit, debt)).1)
+                }
                 // An unreadable file contains no new information.
                 Ok(Some(Err(_))) | Err(_) => return,
             };
@@ -156,7 +158,7 @@ mod tests {
         azimuth(azimuth_deg).plus(elevation).unwrap()
     }
 
-    fn put(before: TrackOffsets, put: &[TrackOffsets]) -> ShiftedTrack {
+    fn build(before: TrackOffsets, put: &[TrackOffsets]) -> ShiftedTrack {
         let start = Timestamp::UNIX_EPOCH;
         ShiftedTrack { start, before, put: put.to_vec(), track: None, is_found: false }
     }
@@ -170,7 +172,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let debts = || Debts::marked_in(Some(folder.path().join("marks")));
         let track = Some(AddedTo { catalog_number: 25_544, end: Timestamp::UNIX_EPOCH });
-        let shifted = ShiftedTrack { track, ..put(azimuth(-0.1), &[azimuth(0.1), azimuth(0.2)]) };
+        let shifted = ShiftedTrack { track, ..build(azimuth(-0.1), &[azimuth(0.1), azimuth(0.2)]) };
         let first = debts();
         first.set_shifted(&unit(), Some(shifted.clone()));
         assert_eq!(first.shifted_kept(&unit()), PromisedFile::OnDisk);
@@ -189,13 +191,13 @@ mod tests {
 
     #[test]
     fn each_component_is_taken_back_by_itself() {
-        let shifted = put(pair(0.25, -0.1), &[pair(0.25, -0.1), pair(0.45, 0.0)]);
+        let shifted = build(pair(0.25, -0.1), &[pair(0.25, -0.1), pair(0.45, 0.0)]);
         // The unit has restored the azimuth but not yet the elevation.
         assert_eq!(shifted.added(pair(0.25, 0.0)), Some(pair(0.0, 0.1)));
-        assert_eq!(shifted.clone().without_foreign(pair(0.25, 0.0)), Some(shifted.clone()));
+        assert_eq!(shifted.clone().drop_foreign(pair(0.25, 0.0)), Some(shifted.clone()));
         // Somebody else has set the azimuth.
         assert_eq!(shifted.added(pair(0.7, 0.0)), None);
-        let left = shifted.without_foreign(pair(0.7, 0.0)).unwrap();
+        let left = shifted.drop_foreign(pair(0.7, 0.0)).unwrap();
         assert_eq!(left.added(pair(0.7, 0.0)), Some(pair(0.0, 0.1)));
     }
 
@@ -203,7 +205,7 @@ mod tests {
     fn what_another_azel_has_recorded_or_taken_back_meanwhile_is_found() {
         let folder = tempfile::tempdir().unwrap();
         let [here, other] = [(); 2].map(|()| Debts::marked_in(Some(folder.path().to_owned())));
-        let shifted = |degrees| put(TrackOffsets::NONE, &[azimuth(degrees)]);
+        let shifted = |degrees| build(TrackOffsets::NONE, &[azimuth(degrees)]);
         other.set_shifted(&unit(), Some(shifted(0.1)));
         here.find_shifted(&unit());
         let found = ShiftedTrack { is_found: true, ..shifted(0.1) };

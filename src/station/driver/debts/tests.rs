@@ -139,8 +139,8 @@ fn the_age_of_a_mark_counts_from_the_last_try() {
     let debts = Debts::marked_in(Some(folder.path().to_owned()));
     debts.mark(&one, 1, Mark { start: Some(start()), tried: Some(tried) });
     let marked = Debts::marked_in(Some(folder.path().to_owned())).marked(&one).unwrap();
-    assert_eq!((marked.start, marked.last_tried()), (Some(start()), Some(tried)));
-    assert_eq!(Mark { start: Some(start()), tried: None }.last_tried(), Some(start()));
+    assert_eq!((marked.start, marked.last_attempt()), (Some(start()), Some(tried)));
+    assert_eq!(Mark { start: Some(start()), tried: None }.last_attempt(), Some(start()));
 }
 
 #[test]

@@ -52,35 +52,35 @@ impl Gate {
             Motion::Step { x_deg, y_deg } => {
                 [x_deg, y_deg].map(|by_deg| (by_deg != 0.0).then_some(Lead::By(by_deg)))
             }
-            Motion::Position { .. } => self.leads_of_position(motion, now),
+            Motion::Position { .. } => self.position_leads(motion, now),
             // The unit reports when its program moves the axes.
             Motion::StartProgram | Motion::EnableAuto => [None; 2],
         };
-        self.watch.commanded(leads, now.steady);
+        self.watch.note_command(leads, now.steady);
     }
 
-    fn leads_of_position(&self, motion: Motion, now: Moment) -> [Option<Lead>; 2] {
-        let sent_to_deg = self.sent_to(motion, now);
+    fn position_leads(&self, motion: Motion, now: Moment) -> [Option<Lead>; 2] {
+        let sent_to_deg = self.end_angles(motion, now);
         let [first, second] = sent_to_deg.map(|deg| match deg {
             Some(deg) => Lead::To(deg),
             None => Lead::Anywhere,
         });
-        let [turns_first, _] = self.turned_by(motion);
+        let [turns_first, _] = self.moved_axes(motion);
         let sent = self.controller.as_sent(motion);
         let Motion::Position { azimuth, .. } = sent else {
             return [Some(Lead::Anywhere); 2];
         };
         let first = match (first, azimuth) {
-            (Lead::To(deg), Some(_)) if turns_first => self.ways_to(deg, now),
+            (Lead::To(deg), Some(_)) if turns_first => self.azimuth_lead(deg, now),
             (first, _) => first,
         };
-        let [sends_first, sends_second] = self.turned_by(sent);
+        let [sends_first, sends_second] = self.moved_axes(sent);
         [sends_first.then_some(first), sends_second.then_some(second)]
     }
 
     /// Returns the possible paths of the azimuth axis to an angle, degrees as the mount counts:
     /// direct, over north, or either.
-    fn ways_to(&self, deg: f64, now: Moment) -> Lead {
+    fn azimuth_lead(&self, deg: f64, now: Moment) -> Lead {
         let at_deg = self.state().measured.and_then(|measured| measured.axes[0].angle_deg);
         let is_azel = matches!(self.mount, Mount::AzEl { .. });
         let Some(at_deg) = at_deg.filter(|_| is_azel) else { return Lead::To(deg) };
@@ -108,27 +108,27 @@ impl Gate {
             // Azel sent the action, so its motion is no evidence against another operator.
             panel::Lead::Unseen(_) | panel::Lead::Unknown(_) => [Some(Lead::Anywhere); 2],
         };
-        self.watch.commanded(leads, now.steady);
+        self.watch.note_command(leads, now.steady);
     }
 
     /// Records that the unit accepted the oldest unanswered motion.
-    pub(in crate::driver) fn motion_accepted(&mut self, now: Moment) {
-        self.watch.accepted(now.steady);
+    pub(in crate::driver) fn note_acceptance(&mut self, now: Moment) {
+        self.watch.note_acceptance(now.steady);
     }
 
     /// Records that the unit refused the oldest unanswered motion, or that its outcome is unknown.
-    pub(in crate::driver) fn motion_not_accepted(&mut self) {
-        self.watch.not_accepted();
+    pub(in crate::driver) fn note_refusal(&mut self) {
+        self.watch.note_refusal();
     }
 
     /// Records that the unit will answer none of the sent motions.
-    pub(in crate::driver) fn motions_unanswered(&mut self) {
-        self.watch.not_answered();
+    pub(in crate::driver) fn note_lost_answers(&mut self) {
+        self.watch.note_lost_answers();
     }
 
     /// Records proved standstill of the axes after a halt.
-    pub(in crate::driver) fn motions_over(&mut self, now: Moment) {
-        self.watch.proved_still(now.steady);
+    pub(in crate::driver) fn note_standstill(&mut self, now: Moment) {
+        self.watch.note_standstill(now.steady);
     }
 
     /// Returns the measured sway of the standing axes, degrees, at most 1; `None` until all have
@@ -159,20 +159,20 @@ impl Gate {
     }
 
     /// Restarts the watch after a time without readings.
-    pub(in crate::driver) fn watch_anew(&mut self) {
-        self.watch.start_anew();
+    pub(in crate::driver) fn restart_watch(&mut self) {
+        self.watch.restart();
     }
 
     /// Informs the watch about a written setting that may change the meaning of the readings.
     pub(in crate::driver) fn readings_change(&mut self, now: Moment) {
-        self.watch.opened(now.steady + APPLIES_WITHIN);
+        self.watch.open(now.steady + APPLIES_WITHIN);
     }
 
     /// Checks the last position. Returns an axis that somebody else has moved.
     pub(in crate::driver) fn look_for_hands(&mut self, now: Moment) -> Option<Foreign> {
         // The unit's program moves the axes without commands of Azel.
         if self.state().program.is_some_and(|program| program.enabled) {
-            self.watch.opened(now.steady);
+            self.watch.open(now.steady);
         }
         let measured = self.state().measured?;
         if self.looked.replace(measured.received) == Some(measured.received) {
@@ -180,10 +180,10 @@ impl Gate {
         }
         // Azel then does not know the commands in axis degrees, so angles prove no foreign motion.
         if !self.geometry_fits(&measured) {
-            self.watch.opened(now.steady);
+            self.watch.open(now.steady);
         }
         let Some(readings) = self.readings() else {
-            self.watch.start_anew();
+            self.watch.restart();
             return None;
         };
         self.watch.take(readings)

@@ -41,7 +41,7 @@ impl Interval {
     }
 
     /// Returns the range of an axis that may have turned at up to its maximum rate since `last`.
-    fn widened(
+    fn from_last(
         last: LastAngle,
         elapsed: Duration,
         rate_deg_s: f64,
@@ -69,7 +69,7 @@ impl Intervals {
 
     /// Returns the possible angles of the axes after turning by `ahead_deg`. An axis without a
     /// known angle stays within its travel.
-    pub(super) fn after(self, ahead_deg: [f64; 2], travel_deg: [(f64, f64); 2]) -> Sweep {
+    pub(super) fn turn(self, ahead_deg: [f64; 2], travel_deg: [(f64, f64); 2]) -> Sweep {
         let Sweep(ahead) = self.sweep().turned(ahead_deg);
         let [first, second] = self.0;
         let [first_ahead, second_ahead] = ahead;
@@ -156,7 +156,7 @@ impl Gate {
     }
 
     /// Returns the request time of the oldest angle in use.
-    pub(super) fn angles_asked(&self) -> Option<Instant> {
+    pub(super) fn oldest_request(&self) -> Option<Instant> {
         let measured = self.state().measured?;
         let count = self.variant.capabilities.axis_count();
         let axes = measured.axes.into_iter().zip(self.last_angles.0).take(count);
@@ -192,7 +192,7 @@ fn interval(
         }
         (_, _, Some(last)) => {
             let elapsed = requested.saturating_duration_since(last.requested);
-            Interval::widened(last, elapsed, rate_deg_s, travel_deg)
+            Interval::from_last(last, elapsed, rate_deg_s, travel_deg)
         }
         (_, _, None) => {
             let (from_deg, to_deg) = travel_deg;
@@ -237,7 +237,7 @@ mod tests {
 
     /// Returns the interval, in degrees, of an axis with a travel from -5 to 100 degrees and a rate
     /// up to 2 degrees a second. The axis stood at 10 degrees `seconds` ago.
-    fn after(seconds: u64, axis: Axis) -> (f64, f64, bool) {
+    fn interval_after(seconds: u64, axis: Axis) -> (f64, f64, bool) {
         let requested = Instant::now();
         let now = requested + Duration::from_secs(seconds);
         let last = Some(LastAngle { deg: 10.0, requested, at_limit: None });
@@ -248,20 +248,28 @@ mod tests {
     #[test]
     fn without_an_angle_it_widens_from_the_last_one_up_to_the_travel() {
         let blank = axis(None, [false; 2]);
-        assert_eq!(after(3, axis(Some(30.0), [false; 2])), (30.0, 30.0, true));
-        assert_eq!(after(0, blank), (10.0, 10.0, true), "one blank reading is no news");
-        assert_eq!(after(1, blank), (8.0, 12.0, false));
-        assert_eq!(after(2, blank), (6.0, 14.0, false));
-        assert_eq!(after(10, blank), (-5.0, 30.0, false));
-        assert_eq!(after(1000, blank), (-5.0, 100.0, false));
-        assert_eq!(after(2, axis(Some(f64::NAN), [false; 2])), (6.0, 14.0, false));
+        assert_eq!(interval_after(3, axis(Some(30.0), [false; 2])), (30.0, 30.0, true));
+        assert_eq!(interval_after(0, blank), (10.0, 10.0, true), "one blank reading is no news");
+        assert_eq!(interval_after(1, blank), (8.0, 12.0, false));
+        assert_eq!(interval_after(2, blank), (6.0, 14.0, false));
+        assert_eq!(interval_after(10, blank), (-5.0, 30.0, false));
+        assert_eq!(interval_after(1000, blank), (-5.0, 100.0, false));
+        assert_eq!(interval_after(2, axis(Some(f64::NAN), [false; 2])), (6.0, 14.0, false));
     }
 
     #[test]
     fn a_limit_switch_means_that_end_of_the_travel() {
-        assert_eq!(after(5, axis(None, [true, false])), (-5.0, -5.0, true));
-        assert_eq!(after(50, axis(None, [false, true])), (100.0, 100.0, true));
-        assert_eq!(after(1, axis(None, [false, true])), (10.0, 100.0, false), "it is elsewhere");
-        assert_eq!(after(2, axis(None, [true, true])), (6.0, 14.0, false), "they contradict");
+        assert_eq!(interval_after(5, axis(None, [true, false])), (-5.0, -5.0, true));
+        assert_eq!(interval_after(50, axis(None, [false, true])), (100.0, 100.0, true));
+        assert_eq!(
+            interval_after(1, axis(None, [false, true])),
+            (10.0, 100.0, false),
+            "it is elsewhere"
+        );
+        assert_eq!(
+            interval_after(2, axis(None, [true, true])),
+            (6.0, 14.0, false),
+            "they contradict"
+        );
     }
 }

@@ -16,12 +16,12 @@ pub(super) struct Permissions {
 
 impl Gate {
     /// Permits manual motions out of a barrier until `end`.
-    pub(in crate::driver) fn let_out(&mut self, end: Option<Instant>) {
+    pub(in crate::driver) fn permit_exit(&mut self, end: Option<Instant>) {
         self.permissions.out_end = end;
     }
 
     /// Returns `true` if the operator may move the antenna manually out of a barrier.
-    pub(in crate::driver) fn lets_out(&self, now: Moment) -> bool {
+    pub(in crate::driver) fn permits_exit(&self, now: Moment) -> bool {
         self.permissions.out_end.is_some_and(|end| now.steady < end)
     }
 

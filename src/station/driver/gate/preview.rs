@@ -29,7 +29,7 @@ impl Gate {
         let limits = self.axis_limits();
         let legs = turns_deg.windows(2).filter_map(|pair| <&[[f64; 2]; 2]>::try_from(pair).ok());
         let arrives_s = legs.clone().map(|[start, end]| limits.seconds(*start, *end)).sum();
-        let points = legs.flat_map(|[start, end]| turning(*start, *end));
+        let points = legs.flat_map(|[start, end]| turn_positions(*start, *end));
         let path = points.map(|axes_deg| self.bounds.direction(axes_deg)).collect();
         Ok(Way { path, arrives_s: Some(arrives_s), is_round_a_corner })
     }
@@ -45,7 +45,7 @@ impl Gate {
 }
 
 /// Yields positions of two axes that start together and turn at one rate.
-fn turning(from_deg: [f64; 2], to_deg: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
+fn turn_positions(from_deg: [f64; 2], to_deg: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
     let [first, second] = [to_deg[0] - from_deg[0], to_deg[1] - from_deg[1]];
     let whole_deg = first.abs().max(second.abs());
     // A constant limits the points, because the driver thread computes them.
@@ -63,8 +63,8 @@ mod tests {
 
     #[test]
     fn the_axis_with_less_to_turn_arrives_first() {
-        let places: Vec<_> = turning([10.0, 40.0], [18.0, 37.0]).collect();
+        let places: Vec<_> = turn_positions([10.0, 40.0], [18.0, 37.0]).collect();
         assert_eq!(places, [[10.0, 40.0], [12.0, 38.0], [14.0, 37.0], [16.0, 37.0], [18.0, 37.0]]);
-        assert_eq!(turning([10.0, 40.0], [10.0, 40.0]).last(), Some([10.0, 40.0]));
+        assert_eq!(turn_positions([10.0, 40.0], [10.0, 40.0]).last(), Some([10.0, 40.0]));
     }
 }

@@ -98,11 +98,11 @@ impl Gate {
     }
 
     fn path_is_clear(&self, judge: &Arc<Judge>, now: Moment) -> Result<(), Refusal> {
-        self.path_of_is_clear(judge, &self.state().on_board, now)
+        self.unit_path_is_clear(judge, &self.state().on_board, now)
     }
 
     /// Does the same as [`Self::path_is_clear`] for a unit that would report `unit`.
-    pub(super) fn path_of_is_clear(
+    pub(super) fn unit_path_is_clear(
         &self,
         judge: &Arc<Judge>,
         unit: &OnBoard,

@@ -99,7 +99,7 @@ fn safety_settings_are_read(
     let refusal = Refusal::SettingsUnread { place: place.clone() };
     let rates_deg_s = match *request {
         MotionRequest::Motion(Motion::Jog { x_deg_s, y_deg_s }) => {
-            Some(situation.turning([x_deg_s, y_deg_s]))
+            Some(situation.actual_rates([x_deg_s, y_deg_s]))
         }
         MotionRequest::Motion(Motion::Step { .. }) => None,
         MotionRequest::Motion(
@@ -226,7 +226,7 @@ fn within_travel(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refus
     let ahead_deg = match *motion {
         // Check as far as the axes turn until the next position is judged.
         Motion::Jog { x_deg_s, y_deg_s } => {
-            situation.turning([x_deg_s, y_deg_s]).map(|rate| rate * situation.ahead_s)
+            situation.actual_rates([x_deg_s, y_deg_s]).map(|rate| rate * situation.ahead_s)
         }
         Motion::Step { x_deg, y_deg } => [x_deg, y_deg],
         // `within_reach` judges the end of a position, and a worker judges the path of a program.
@@ -348,12 +348,12 @@ fn an_unseen_way_is_watched(act: &Act, situation: &Situation<'_>) -> Result<(), 
 }
 
 fn end_of_the_action_is_within_reach(act: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
-    let motion = situation.gate.motion_of(act)?;
+    let motion = situation.gate.lead_motion(act)?;
     motion.map_or(Ok(()), |motion| within_reach(&motion, situation))
 }
 
 fn way_of_the_action_is_clear(act: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
-    let motion = situation.gate.motion_of(act)?;
+    let motion = situation.gate.lead_motion(act)?;
     motion.map_or(Ok(()), |motion| way::is_clear(&motion, situation))
 }
 

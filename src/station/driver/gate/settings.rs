@@ -40,7 +40,7 @@ impl Gate {
             Check::AnySetting(check) => check(&situation),
             _ => Ok(()),
         })?;
-        self.path_of_is_clear(&shift.judge, &shift.axes, now)?;
+        self.unit_path_is_clear(&shift.judge, &shift.axes, now)?;
         self.whole_path_is_clear(&shift.judge, &shift.sky)
     }
 

@@ -472,17 +472,17 @@ fn while_a_safety_setting_is_unread_only_slow_motion_by_hand_is_permitted() {
         (Intent::Manual, jog(0.5, 0.0)),
         (Intent::Manual, step(0.0, 1.0)),
     ] {
-        let case = each_rule::unread(Case::new(intent));
+        let case = each_rule::make_unread(Case::new(intent));
         assert_eq!(case.ask(motion), Err(unread.clone()), "{motion:?}");
         let mut gate = case.gate(&Arc::default());
-        gate.let_out(Some(case.now().steady + Duration::from_mins(1)));
+        gate.permit_exit(Some(case.now().steady + Duration::from_mins(1)));
         let by_hand = intent == Intent::Manual;
         let expected = if by_hand { Ok(()) } else { Err(unread.clone()) };
         assert_eq!(gate.check(motion, intent, case.now()), expected, "{motion:?}");
     }
-    let case = each_rule::unread(Case::new(Intent::Manual));
+    let case = each_rule::make_unread(Case::new(Intent::Manual));
     let mut gate = case.gate(&Arc::default());
-    gate.let_out(Some(case.now().steady + Duration::from_mins(1)));
+    gate.permit_exit(Some(case.now().steady + Duration::from_mins(1)));
     let fast = gate.check(jog(3.0, 0.0), Intent::Manual, case.now());
     assert!(matches!(fast, Err(Refusal::TooFast { .. })), "{fast:?}");
     let mut case = case;

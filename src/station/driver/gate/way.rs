@@ -39,11 +39,11 @@ pub(super) fn is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(),
     let intervals = situation.intervals.ok_or(Refusal::PositionUnknown)?;
     match *motion {
         Motion::Jog { x_deg_s, y_deg_s } => {
-            let rates = situation.turning([x_deg_s, y_deg_s]);
+            let rates = situation.actual_rates([x_deg_s, y_deg_s]);
             let ahead_deg = rates.map(|rate| rate * situation.ahead_s);
-            by_hand(intervals, ahead_deg, Some(rates), situation)
+            check_manual(intervals, ahead_deg, Some(rates), situation)
         }
-        Motion::Step { x_deg, y_deg } => by_hand(intervals, [x_deg, y_deg], None, situation),
+        Motion::Step { x_deg, y_deg } => check_manual(intervals, [x_deg, y_deg], None, situation),
         // A worker judges the path of the unit's own program.
         Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto => Ok(()),
     }
@@ -59,27 +59,27 @@ fn to_position(
     let end = target(azimuth, elevation, start, situation).ok_or(Refusal::PositionUnknown)?;
     // The last position may be seconds old. A track sends its next position while the axes turn, so
     // the path begins at any place that they can have reached.
-    let gone_on = situation.gate.gone_on(start, situation.ahead_s);
-    let ways = ways_round(azimuth.is_some(), start.union(end), gone_on, situation);
+    let covered = situation.gate.extend(start, situation.ahead_s);
+    let ways = ways_round(azimuth.is_some(), start.union(end), covered, situation);
     // The unit chooses between these paths, so a barrier on either path refuses the motion.
     for sweep in ways.into_iter().flatten() {
-        away_from_the_sun(sweep, intervals, end, situation)
-            .unwrap_or_else(|| blocked(sweep, start, &situation.bounds_now()))?;
+        check_sun_exit(sweep, intervals, end, situation)
+            .unwrap_or_else(|| check_sweep(sweep, start, &situation.bounds_now()))?;
     }
     Ok(())
 }
 
 /// Returns the possible paths of the azimuth axis: direct, or over north. The axis does not cross
 /// its limits, so omits a path across a limit if the other path crosses none. Each path begins at
-/// the range `gone_on`.
+/// the range `covered`.
 pub(super) fn ways_round(
     turns_azimuth: bool,
     counted: Sweep,
-    gone_on: Sweep,
+    covered: Sweep,
     situation: &Situation<'_>,
 ) -> [Option<Sweep>; 2] {
     if !turns_azimuth || !situation.state.may_turn_either_way {
-        return [Some(counted.union(gone_on)), None];
+        return [Some(counted.union(covered)), None];
     }
     let Sweep([(from_deg, to_deg), second]) = counted;
     let over_north = Sweep([(to_deg, from_deg + 360.0), second]);
@@ -89,10 +89,10 @@ pub(super) fn ways_round(
         turns.any(|limit_deg| from_deg < limit_deg && limit_deg < to_deg)
     };
     let crosses = [counted, over_north].map(crosses_limit);
-    let Sweep([(begins_deg, _), _]) = gone_on;
+    let Sweep([(begins_deg, _), _]) = covered;
     let turn_deg = if begins_deg <= from_deg { 360.0 } else { 0.0 };
-    let counted = counted.union(gone_on);
-    let over_north = over_north.union(gone_on.turned([turn_deg, 0.0]));
+    let counted = counted.union(covered);
+    let over_north = over_north.union(covered.turned([turn_deg, 0.0]));
     match crosses {
         [false, true] => [Some(counted), None],
         [true, false] => [Some(over_north), None],
@@ -102,17 +102,17 @@ pub(super) fn ways_round(
 
 impl Situation<'_> {
     fn bounds_now(&self) -> BoundsAt<'_> {
-        self.at_present(self.bounds)
+        self.evaluate(self.bounds)
     }
 
     /// Evaluates these bounds at the current time, with the offsets of the axes.
-    fn at_present<'b>(&'b self, bounds: &'b Bounds) -> BoundsAt<'b> {
+    fn evaluate<'b>(&'b self, bounds: &'b Bounds) -> BoundsAt<'b> {
         bounds.at_time(self.now.utc).turned_by(self.to_sky).with_budget(self.budget)
     }
 
     /// Returns the true rates of the axes in a jog, because a controller may have only a few named
     /// speeds.
-    pub(super) fn turning(&self, asked_deg_s: [f64; 2]) -> [f64; 2] {
+    pub(super) fn actual_rates(&self, asked_deg_s: [f64; 2]) -> [f64; 2] {
         let fastest_deg_s = self.limits.maximum_rate_deg_s;
         asked_deg_s.map(|rate| {
             let named = self.can.jog.nearest(rate, fastest_deg_s);
@@ -124,7 +124,7 @@ impl Situation<'_> {
 
 /// Allows a go-to from the surroundings of the Sun that comes no nearer to the Sun and ends
 /// outside. Returns `None` if the motion does not start there.
-fn away_from_the_sun(
+fn check_sun_exit(
     sweep: Sweep,
     start: Intervals,
     end: Sweep,
@@ -135,11 +135,11 @@ fn away_from_the_sun(
         .bounds
         .away_from_the_sun(start.angles_deg()?, situation.now.utc)
         .filter(|_| is_sent && situation.bounds_now().may_forbid(end).is_none())?;
-    Some(blocked(sweep, start.sweep(), &situation.at_present(&leaving)))
+    Some(check_sweep(sweep, start.sweep(), &situation.evaluate(&leaving)))
 }
 
 /// Judges a manual motion, whose end may be unknown: the operator controls it.
-fn by_hand(
+fn check_manual(
     intervals: Intervals,
     ahead_deg: [f64; 2],
     rates_deg_s: Option<[f64; 2]>,
@@ -149,7 +149,7 @@ fn by_hand(
     let start = intervals.sweep();
     let sweep = start.union(start.turned(ahead_deg));
     if intervals.unknown().is_some() {
-        return by_hand_unseen(intervals, ahead_deg, rates_deg_s, situation);
+        return check_manual_unseen(intervals, ahead_deg, rates_deg_s, situation);
     }
     let clearances = bounds_now.min_clearances(start);
     let violation = clearances.iter().find(|clearance| {
@@ -158,11 +158,11 @@ fn by_hand(
             && clearance.angle < Angle::ZERO
     });
     let Some(violation) = violation else {
-        return blocked(sweep, start, &bounds_now);
+        return check_sweep(sweep, start, &bounds_now);
     };
     // The permission to leave one barrier does not cover another barrier.
     let outside_of = bounds_now.without_entered(start);
-    blocked(sweep, start, &situation.at_present(&outside_of))?;
+    check_sweep(sweep, start, &situation.evaluate(&outside_of))?;
     // Without an elevation axis, only a turn in azimuth leads out.
     let is_left = if situation.can.has_elevation() {
         is_left_on_the_way(start, ahead_deg, &bounds_now)
@@ -206,7 +206,7 @@ fn is_left_by_azimuth(start: Sweep, [ahead_deg, _]: [f64; 2], bounds: &BoundsAt<
 
 /// Judges a manual motion while the angle of an axis is unknown. The motion needs no permission if
 /// no barrier blocks it from any possible position.
-fn by_hand_unseen(
+fn check_manual_unseen(
     intervals: Intervals,
     ahead_deg: [f64; 2],
     rates_deg_s: Option<[f64; 2]>,
@@ -214,7 +214,7 @@ fn by_hand_unseen(
 ) -> Result<(), Refusal> {
     let bounds_now = situation.bounds_now();
     let start = intervals.sweep();
-    let sweep = start.union(intervals.after(ahead_deg, situation.mount.travel_deg()));
+    let sweep = start.union(intervals.turn(ahead_deg, situation.mount.travel_deg()));
     let Some((barrier, direction)) = bounds_now.blocks_unseen(sweep, start) else { return Ok(()) };
     // The operator's permission does not override a known elevation below the minimum, nor a
     // barrier that the axes are definitely outside.
@@ -224,7 +224,7 @@ fn by_hand_unseen(
         return Err(Refusal::Forbidden { barrier: Barrier::MinimumElevation, direction });
     }
     let outside_of = bounds_now.without_entered(start);
-    blocked(sweep, start, &situation.at_present(&outside_of))?;
+    check_sweep(sweep, start, &situation.evaluate(&outside_of))?;
     let axis = intervals.unknown().and_then(|axis| situation.can.axes.get(axis));
     let refusal = Refusal::Unchecked { axis: axis.copied().unwrap_or_default(), barrier };
     slowly_by_permission(rates_deg_s, refusal, situation)
@@ -247,7 +247,7 @@ pub(super) fn slowly_by_permission(
     if fastest > allowed_deg_s {
         return Err(Refusal::TooFast { asked_deg_s: fastest, allowed_deg_s });
     }
-    if situation.gate.lets_out(situation.now) { Ok(()) } else { Err(refusal) }
+    if situation.gate.permits_exit(situation.now) { Ok(()) } else { Err(refusal) }
 }
 
 /// Depth of the axes inside barriers.
@@ -294,7 +294,7 @@ impl Depth {
     }
 }
 
-fn blocked(sweep: Sweep, start: Sweep, bounds: &BoundsAt<'_>) -> Result<(), Refusal> {
+fn check_sweep(sweep: Sweep, start: Sweep, bounds: &BoundsAt<'_>) -> Result<(), Refusal> {
     bounds
         .blocks(sweep, start)
         .map_or(Ok(()), |(barrier, direction)| Err(Refusal::Forbidden { barrier, direction }))
@@ -316,13 +316,13 @@ fn target(
         Mount::Xy { lower_axis_azimuth_deg, .. } => {
             let measured = situation.state.measured.map(|measured| measured.pointing);
             let direction = aimed(azimuth, elevation, measured).direction()?;
-            Some(Sweep::at_position(crossed(direction, lower_axis_azimuth_deg)))
+            Some(Sweep::at_position(xy_angles_deg(direction, lower_axis_azimuth_deg)))
         }
     }
 }
 
 /// Returns the angles of an X/Y mount in the controller's count, with 90 at the zenith.
-fn crossed(direction: AzEl, lower_axis_azimuth_deg: f64) -> [f64; 2] {
+fn xy_angles_deg(direction: AzEl, lower_axis_azimuth_deg: f64) -> [f64; 2] {
     let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
     let axes = xy_mount::axes_from_azel(direction, lower_axis);
     [axes.lower, axes.upper].map(|angle| angle.degrees() + 90.0)
@@ -389,10 +389,10 @@ impl Gate {
 
     /// Returns the range from the read position to the position that the last motion may have
     /// reached within `ahead_s` seconds.
-    fn gone_on(&self, start: Sweep, ahead_s: f64) -> Sweep {
+    fn extend(&self, start: Sweep, ahead_s: f64) -> Sweep {
         let gone_deg = self.limits.maximum_rate_deg_s * ahead_s;
-        let mut gone_on = start;
-        let axes = gone_on.0.iter_mut().zip(self.turns).zip(self.to_deg);
+        let mut covered = start;
+        let axes = covered.0.iter_mut().zip(self.turns).zip(self.to_deg);
         // An axis that no motion of Azel turns stays at its last reading.
         for (((from_deg, to_deg), _), end_deg) in axes.filter(|((_, turns), _)| *turns) {
             let ends_deg = end_deg.map_or((f64::NEG_INFINITY, f64::INFINITY), |deg| (deg, deg));
@@ -400,7 +400,7 @@ impl Gate {
             let highest_deg = ends_deg.1.min(*to_deg + gone_deg);
             (*from_deg, *to_deg) = (from_deg.min(lowest_deg), to_deg.max(highest_deg));
         }
-        gone_on
+        covered
     }
 
     pub(super) fn axis_limits(&self) -> AxisLimits {
@@ -414,7 +414,11 @@ impl Gate {
     }
 
     /// Returns the axis angles after turning by `ahead_deg`, but at most to the target of a motion.
-    pub(in crate::driver) fn ahead_of(&self, axes_deg: [f64; 2], ahead_deg: [f64; 2]) -> [f64; 2] {
+    pub(in crate::driver) fn turn_ahead(
+        &self,
+        axes_deg: [f64; 2],
+        ahead_deg: [f64; 2],
+    ) -> [f64; 2] {
         let mut reached = [axes_deg[0] + ahead_deg[0], axes_deg[1] + ahead_deg[1]];
         let overrun_deg = self.variant.capabilities.arrives_within_deg * 2.0;
         for ((reached, from_deg), to_deg) in reached.iter_mut().zip(axes_deg).zip(self.to_deg) {
@@ -446,7 +450,7 @@ impl Gate {
 
     /// Returns the angle of each axis after a motion to a position. An axis with a target ends
     /// there, also from its limit, where it has no angle.
-    pub(super) fn sent_to(&self, motion: Motion, now: Moment) -> [Option<f64>; 2] {
+    pub(super) fn end_angles(&self, motion: Motion, now: Moment) -> [Option<f64>; 2] {
         match self.controller.as_sent(motion) {
             Motion::Position { azimuth, elevation } if matches!(self.mount, Mount::AzEl { .. }) => {
                 let stands = self.state().measured.map(|measured| measured.axes);
@@ -478,13 +482,13 @@ impl Gate {
         let end = target(Some(direction.azimuth), Some(direction.elevation), start, &situation)
             .ok_or(Refusal::PositionUnknown)?;
         let along = Angle::from_degrees(ALONG_DEG);
-        let bounds = situation.at_present(&self.bounds).with_floor_lower_by(along);
-        blocked(start.union(end), start, &bounds)
+        let bounds = situation.evaluate(&self.bounds).with_floor_lower_by(along);
+        check_sweep(start.union(end), start, &bounds)
     }
 
     /// Returns the lead of an action as a motion to a position; `None` without a lead to a
     /// position, an error for an unknown lead.
-    pub(super) fn motion_of(&self, act: &Act) -> Result<Option<Motion>, Refusal> {
+    pub(super) fn lead_motion(&self, act: &Act) -> Result<Option<Motion>, Refusal> {
         let Lead::To(to_deg) = self.controller.lead_of(act) else { return Ok(None) };
         let [first, second] = to_deg;
         if let Mount::AzEl { .. } = self.mount {
@@ -498,7 +502,7 @@ impl Gate {
     }
 
     /// Returns the known angles of the axes at the end of an action.
-    pub(super) fn end_of(&self, act: &Act) -> [Option<f64>; 2] {
+    pub(super) fn action_end(&self, act: &Act) -> [Option<f64>; 2] {
         match self.controller.lead_of(act) {
             Lead::To(to_deg) => to_deg,
             Lead::Nowhere | Lead::Unseen(_) | Lead::Unknown(_) => [None; 2],

@@ -28,7 +28,7 @@ pub(super) struct Heard(AtomicU8);
 
 impl Heard {
     /// Records that the link is open: from now on, silence is a finding, too.
-    pub(super) fn opened(&self) {
+    pub(super) fn note_open(&self) {
         self.learn(SILENT);
     }
 
@@ -68,10 +68,10 @@ impl<S: Stream> Stream for WithParity<S> {
         self.stream.duplicate()
     }
 
-    fn on_wire(&self, bytes: &[u8]) -> Vec<u8> {
+    fn encode(&self, bytes: &[u8]) -> Vec<u8> {
         let mut prepared = bytes.to_vec();
         self.parity.prepare(&mut prepared);
-        self.stream.on_wire(&prepared)
+        self.stream.encode(&prepared)
     }
 }
 
@@ -129,7 +129,7 @@ mod tests {
         let heard = Arc::new(Heard::default());
         let mut line = WithParity::new(near, Parity::Software, Arc::clone(&heard));
         assert!(heard.fits(), "a link that was never open says nothing");
-        heard.opened();
+        heard.note_open();
         assert!(!heard.fits(), "nothing came yet");
         let text: Vec<u8> = (0..0x80).collect();
         line.write_all(&text).await.unwrap();

@@ -25,7 +25,7 @@ pub(super) fn dial_serial(name: &str, baud: u32, lock: Arc<dyn UnitLock>) -> Dia
             // Some drivers wait for their hardware while they open it.
             let open = move || open_locked(&name, baud, lock.as_ref());
             let opened = tokio::task::spawn_blocking(open).await;
-            let (port, parity) = opened.map_err(io::Error::other)?.map_err(in_words)?;
+            let (port, parity) = opened.map_err(io::Error::other)?.map_err(plain_error)?;
             Ok(Box::new(WithParity::new(port, parity, Arc::default())) as Box<dyn Stream>)
         })
     })
@@ -45,14 +45,14 @@ fn open_locked(name: &str, baud: u32, lock: &dyn UnitLock) -> io::Result<(Serial
 /// Opens a port. If the port has no parity, such as a pseudo-terminal, opens it with eight bits;
 /// Azel then adds the parity.
 fn open(name: &str, baud: u32) -> io::Result<(SerialPort, Parity)> {
-    let mut port = SerialPort::open(name, |settings| raw(settings, baud))?;
+    let mut port = SerialPort::open(name, |settings| set_raw(settings, baud))?;
     let mut settings = port.get_configuration()?;
     settings.set_char_size(CharSize::Bits7);
     settings.set_parity(serial2_tokio::Parity::Even);
     let parity = if port.set_configuration(&settings).is_ok() {
         Parity::Port
     } else {
-        port.set_configuration(&raw(settings, baud)?)?;
+        port.set_configuration(&set_raw(settings, baud)?)?;
         Parity::Software
     };
     // Earlier bytes belong to no query. If a port cannot discard them, the frame parser rejects
@@ -62,7 +62,7 @@ fn open(name: &str, baud: u32) -> io::Result<(SerialPort, Parity)> {
 }
 
 /// Sets eight bits, no parity and unchanged bytes.
-fn raw(mut settings: Settings, baud: u32) -> io::Result<Settings> {
+fn set_raw(mut settings: Settings, baud: u32) -> io::Result<Settings> {
     settings.set_raw();
     settings.set_baud_rate(baud)?;
     settings.set_char_size(CharSize::Bits8);
@@ -73,7 +73,7 @@ fn raw(mut settings: Settings, baud: u32) -> io::Result<Settings> {
 }
 
 /// Returns a plain error text if the system's text does not help.
-fn in_words(error: io::Error) -> io::Error {
+fn plain_error(error: io::Error) -> io::Error {
     let words = match error.kind() {
         io::ErrorKind::NotFound => "no such serial port",
         io::ErrorKind::PermissionDenied => {
@@ -95,7 +95,7 @@ mod tests {
         let missing = "/dev/no-such-port-as-this";
         let Err(error) = dial_serial(missing, 9600, Arc::new(()))().await else { panic!("opened") };
         assert_eq!(error.to_string(), "no such serial port");
-        let denied = in_words(io::ErrorKind::PermissionDenied.into()).to_string();
+        let denied = plain_error(io::ErrorKind::PermissionDenied.into()).to_string();
         assert!(denied.contains("dialout"), "{denied}");
     }
 }

@@ -5,7 +5,7 @@ use std::{io, sync::Arc};
 use tokio::net::TcpStream;
 
 use super::{
-    Dial, Duplicate, Stream, UnitLock, duplicate_of,
+    Dial, Duplicate, Stream, UnitLock, duplicate_handle,
     endpoint::Lookup,
     parity::{Heard, WithParity},
 };
@@ -13,7 +13,7 @@ use crate::protocol::Parity;
 
 impl Stream for TcpStream {
     fn duplicate(&self) -> io::Result<Option<Duplicate>> {
-        duplicate_of(self)
+        duplicate_handle(self)
     }
 }
 
@@ -49,7 +49,7 @@ pub(super) fn dial_line_server(address: &str, lock: Arc<dyn UnitLock>) -> Dial {
         heard = Some(newest);
         Box::pin(async move {
             let stream = open(&lookup).await?;
-            listener.opened();
+            listener.note_open();
             Ok(Box::new(WithParity::new(stream, guess, listener)) as Box<dyn Stream>)
         })
     })

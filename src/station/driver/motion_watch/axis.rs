@@ -123,7 +123,7 @@ impl AxisWatch {
         (self.dead_time, self.spread) = (DeadTime::default(), Spread::default());
     }
 
-    pub(super) fn commanded(&mut self, lead: Lead, number: u64, now: Instant) {
+    pub(super) fn note_command(&mut self, lead: Lead, number: u64, now: Instant) {
         let here = self.reachable(now);
         let turns_deg = self.estimate.map_or(0.0, |estimate| estimate.turns_deg);
         let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
@@ -151,7 +151,7 @@ impl AxisWatch {
             self.redirected = Some(now);
         }
         self.last_way_deg = way_deg;
-        self.runs_past.commanded(way_deg.abs(), are_steps);
+        self.runs_past.note_command(way_deg.abs(), are_steps);
         (self.sent, self.has_settled) = (Some(now), false);
         let expiry = None;
         let passed = [None; 2];
@@ -162,7 +162,7 @@ impl AxisWatch {
         if self.motions.len() > MAX_MOTIONS {
             let oldest = self.motions.remove(0);
             if let Some(next) = self.motions.first_mut() {
-                *next = oldest.joined(*next);
+                *next = oldest.join(*next);
             }
         }
     }
@@ -187,7 +187,7 @@ impl AxisWatch {
     }
 
     /// Ends the motions before this number.
-    pub(super) fn accepted(&mut self, number: u64, now: Instant) {
+    pub(super) fn note_acceptance(&mut self, number: u64, now: Instant) {
         // A motion of the other axis ends no motion of this axis.
         if !self.motions.iter().any(|motion| motion.number == number) {
             return;
@@ -198,30 +198,30 @@ impl AxisWatch {
         }
     }
 
-    pub(super) fn stands(&mut self) {
+    pub(super) fn note_rest(&mut self) {
         self.motions.retain(|motion| motion.ends);
     }
 
     /// Ends all motions but allows for coasting: at a coarse resolution, equal readings can hide a
     /// slow motion.
-    pub(super) fn proved_still(&mut self, now: Instant) {
+    pub(super) fn note_standstill(&mut self, now: Instant) {
         for motion in &mut self.motions {
             motion.expiry = Some(motion.expiry.map_or(now, |expiry| expiry.min(now)));
         }
     }
 
     /// Allows the unit's own program to turn the axis until now, and the axis to coast afterwards.
-    pub(super) fn opened(&mut self, now: Instant) {
+    pub(super) fn open(&mut self, now: Instant) {
         self.open_until = self.open_until.max(Some(now + DEAD_TIME + COASTS));
     }
 
-    pub(super) fn start_anew(&mut self) {
+    pub(super) fn restart(&mut self) {
         self.estimate = None;
         self.outside = None;
         self.turned = None;
         self.rate_from = None;
         self.has_settled = false;
-        self.spread.turns();
+        self.spread.note_turn();
     }
 
     /// Returns `true` if commands explain the reading: the axis turns inside the interval, or
@@ -246,7 +246,7 @@ impl AxisWatch {
         let ends =
             ends_deg.map(|end_deg| Range::with_error(end_deg, self.figures.arrives_within_deg));
         let rests = ends.chain([estimate.range]);
-        let mut rests = rests.map(|rest| rest.widened(coasts_deg));
+        let mut rests = rests.map(|rest| rest.widen(coasts_deg));
         here.overlap(reachable).is_some() && rests.any(|rest| here.overlap(rest).is_some())
     }
 
@@ -303,7 +303,7 @@ impl AxisWatch {
             self.was_found_turning = motion != AxisMotion::Still;
         }
         if self.was_found_turning {
-            self.opened(received);
+            self.open(received);
         }
         let is_open = self.open_until.is_some_and(|end| requested <= end);
         let reachable = self.reachable(received).filter(|_| !is_open);
@@ -344,7 +344,7 @@ impl AxisWatch {
         self.turned = Some(Turned { from_deg: deg, time: Some(time), is_up: false });
         (self.outside, self.has_settled, self.starts) = (None, false, false);
         self.rate_from = Some((deg, time));
-        self.spread.turns();
+        self.spread.note_turn();
         self.runs_past.forget();
         self.may_have_passed(time);
     }
@@ -371,7 +371,7 @@ impl AxisWatch {
         let went_s = longest.unwrap_or_default().as_secs_f64() / 2.0;
         let went_deg = self.runs_past.max_deg_s() * went_s;
         for motion in &mut self.motions {
-            motion.look(Some(range.widened(went_deg)), self.figures.arrives_within_deg, time);
+            motion.look(Some(range.widen(went_deg)), self.figures.arrives_within_deg, time);
         }
         // The motion of the axis during the gap is unknown.
         if let Some(turned) = self.turned.as_mut().filter(|_| gap.is_some_and(|gap| gap > UNSEEN)) {
@@ -424,7 +424,7 @@ impl AxisWatch {
         }
         if self.is_led(deg > from_deg, deg, time) {
             let longest = received.saturating_duration_since(start);
-            self.runs_past.turned(turned_deg / longest.as_secs_f64());
+            self.runs_past.note_rate(turned_deg / longest.as_secs_f64());
         }
         self.rate_from = Some((deg, time));
     }
@@ -442,11 +442,11 @@ impl AxisWatch {
             self.has_arrived(deg);
             // With power on, changing readings may be slow motion instead of noise.
             if drive == Drive::Off {
-                self.spread.stands(deg);
+                self.spread.note_rest(deg);
             }
             return;
         }
-        self.spread.turns();
+        self.spread.note_turn();
         if !self.motions.last().is_some_and(|newest| newest.ends) {
             return;
         }
@@ -468,7 +468,7 @@ impl AxisWatch {
         let Some(Turned { time: Some(turned_at), is_up, .. }) = self.turned else { return };
         let past_deg = if is_up { deg - up_to_deg } else { down_to_deg - deg };
         if turned_at == time && past_deg > 0.0 && past_deg.is_finite() {
-            self.runs_past.past(past_deg);
+            self.runs_past.note_overshoot(past_deg);
         }
     }
 
@@ -545,7 +545,7 @@ impl AxisWatch {
         let Estimate { range, time: start, .. } = self.estimate?;
         let elapsed_s = time.saturating_duration_since(start).as_secs_f64();
         let reach_deg = FASTEST_DEG_S * elapsed_s;
-        let mut reachable = range.widened(CREEPS_DEG_S * elapsed_s);
+        let mut reachable = range.widen(CREEPS_DEG_S * elapsed_s);
         let is_unseen = time.saturating_duration_since(start) > UNSEEN;
         let is_settled = self.is_settled(start) && !(is_unseen && self.sent > Some(start));
         for motion in self.motions.iter().filter_map(|motion| motion.state_at(start)) {

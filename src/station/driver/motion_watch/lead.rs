@@ -73,7 +73,7 @@ impl Live {
         }
     }
 
-    pub(super) fn joined(self, newer: Self) -> Self {
+    pub(super) fn join(self, newer: Self) -> Self {
         let [down, up] = self.led;
         let [newer_down, newer_up] = newer.led;
         Self {

@@ -88,7 +88,7 @@ impl RunsPast {
 
     /// Records an outgoing motion of this length, degrees; `are_steps`: it follows right after
     /// another motion.
-    pub(super) fn commanded(&mut self, way_deg: f64, are_steps: bool) {
+    pub(super) fn note_command(&mut self, way_deg: f64, are_steps: bool) {
         (self.are_steps, self.was_commanded) = (are_steps, true);
         // Until the axis reaches the end, it may turn as fast as on a long path.
         self.way_deg = self.way_deg.max(way_deg);
@@ -104,7 +104,7 @@ impl RunsPast {
     }
 
     /// Records a rate between two readings, degrees a second.
-    pub(super) fn turned(&mut self, rate_deg_s: f64) {
+    pub(super) fn note_rate(&mut self, rate_deg_s: f64) {
         self.past_ends.fastest_deg_s = self.past_ends.fastest_deg_s.max(rate_deg_s);
         self.past_ends.turns = self.past_ends.turns.saturating_add(1);
     }
@@ -119,7 +119,7 @@ impl RunsPast {
     }
 
     /// Records a reading this far past the end, degrees.
-    pub(super) fn past(&mut self, by_deg: f64) {
+    pub(super) fn note_overshoot(&mut self, by_deg: f64) {
         self.past_deg = self.past_deg.max(by_deg);
     }
 
@@ -172,7 +172,7 @@ impl Spread {
     }
 
     /// Takes a reading of an axis that stands.
-    pub(super) fn stands(&mut self, deg: f64) {
+    pub(super) fn note_rest(&mut self, deg: f64) {
         let (from_deg, to_deg, readings) = self.now.unwrap_or((deg, deg, 0));
         let (from_deg, to_deg) = (from_deg.min(deg), to_deg.max(deg));
         self.now = Some((from_deg, to_deg, readings + 1));
@@ -187,7 +187,7 @@ impl Spread {
         }
     }
 
-    pub(super) fn turns(&mut self) {
+    pub(super) fn note_turn(&mut self) {
         (self.now, self.has_turned) = (None, true);
     }
 

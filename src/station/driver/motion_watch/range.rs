@@ -12,7 +12,7 @@ impl Range {
         Self { from_deg: deg - error_deg, to_deg: deg + error_deg }
     }
 
-    pub(super) fn widened(self, by_deg: f64) -> Self {
+    pub(super) fn widen(self, by_deg: f64) -> Self {
         Self { from_deg: self.from_deg - by_deg, to_deg: self.to_deg + by_deg }
     }
 

@@ -102,7 +102,7 @@ impl Scene {
         };
         self.plant.send(order);
         if let Some(lead) = lead {
-            self.watch.commanded([Some(lead), None], now);
+            self.watch.note_command([Some(lead), None], now);
             let is_answered = self.dice.chance(0.95);
             let after_s = self.dice.draw(0.01, 0.6);
             self.answers.push((self.plant.now_s + after_s, is_answered));
@@ -118,7 +118,7 @@ impl Scene {
         let now = self.now();
         while let Some(index) = self.answers.iter().position(|(at_s, _)| *at_s <= now_s) {
             let (_, is_answered) = self.answers.remove(index);
-            if is_answered { self.watch.accepted(now) } else { self.watch.not_accepted() }
+            if is_answered { self.watch.note_acceptance(now) } else { self.watch.note_refusal() }
         }
         self.still_s = if self.plant.is_still() { self.still_s + STEP_S } else { 0.0 };
         if now_s < self.away_until_s {
@@ -156,7 +156,7 @@ impl Scene {
         if self.stops && now_s - asked_s + 1.0 < self.still_s {
             self.stops = false;
             let proved = self.time_at(now_s);
-            self.watch.proved_still(proved);
+            self.watch.note_standstill(proved);
         }
     }
 
@@ -167,7 +167,7 @@ impl Scene {
         }
     }
 
-    fn until_still(&mut self) {
+    fn wait_still(&mut self) {
         for _ in 0..60_000 {
             self.step();
             if self.plant.is_still() {
@@ -191,7 +191,7 @@ impl Scene {
     fn any_slew(&mut self) {
         let deg = self.any_deg();
         self.send(Order::To(deg));
-        self.until_still();
+        self.wait_still();
     }
 
     /// Tracks a target that moves no faster than the axis can.
@@ -243,7 +243,7 @@ impl Scene {
                 let after_s = self.dice.draw(0.0, 10.0);
                 self.seconds(after_s);
                 self.send(Order::To(other_deg));
-                self.until_still();
+                self.wait_still();
             }
             _ => {
                 if self.dice.chance(0.5) {
@@ -347,7 +347,7 @@ fn one_that_is_pushed_at_rest_is_found_within_ten_seconds() {
 }
 
 /// Returns the seeds of pushes by more than `beyond_deg` that the watch misses in a track.
-fn missed_in_a_track(seeds: std::ops::Range<u64>, beyond_deg: f64) -> Vec<u64> {
+fn missed_pushes(seeds: std::ops::Range<u64>, beyond_deg: f64) -> Vec<u64> {
     let is_missed = |seed: &u64| {
         let mut scene = Scene::new(*seed);
         scene.plant.kind.follows_well();
@@ -383,14 +383,14 @@ fn missed_in_a_track(seeds: std::ops::Range<u64>, beyond_deg: f64) -> Vec<u64> {
 fn one_that_is_pushed_far_in_a_track_is_found_within_fifteen_seconds() {
     let seeds = cases(200);
     let pushes = seeds.end - seeds.start;
-    let missed = missed_in_a_track(seeds, 15.0);
+    let missed = missed_pushes(seeds, 15.0);
     println!("{} of {pushes} missed: {missed:?}", missed.len());
     // Smaller pushes hide in the normal overshoot of a drive.
     assert!(missed.len() as u64 * 100 <= pushes.max(100), "{missed:?}");
 }
 
 /// Returns the evidence from a standing axis, read once a second, whose unit reports `drives`.
-fn evidence_from(watch: &mut MotionWatch, start: Instant, drives: &[Drive]) -> Vec<Evidence> {
+fn collect_evidence(watch: &mut MotionWatch, start: Instant, drives: &[Drive]) -> Vec<Evidence> {
     let mut found = Vec::new();
     for (second, drive) in (1..).zip(drives) {
         let requested = start + Duration::from_secs(second);
@@ -407,7 +407,7 @@ fn a_unit_that_reports_a_jog_or_a_runaway_accuses_by_its_word() {
         AxisFigures { resolution_deg: 0.1, sway_deg: 0.5, arrives_within_deg: 0.3, wraps: false };
     let start = Instant::now();
     let evidence = |drives: &[Drive]| {
-        evidence_from(
+        collect_evidence(
             &mut MotionWatch::new([figures; 2], &[AxisLessons::default(); 2]),
             start,
             drives,
@@ -422,18 +422,18 @@ fn a_unit_that_reports_a_jog_or_a_runaway_accuses_by_its_word() {
 
     // Jog the axis until the end of the jog is proved.
     let mut watch = MotionWatch::new([figures; 2], &[AxisLessons::default(); 2]);
-    assert_eq!(evidence_from(&mut watch, start, &[Drive::Off]), []);
+    assert_eq!(collect_evidence(&mut watch, start, &[Drive::Off]), []);
     let later = start + Duration::from_secs(10);
-    watch.commanded([Some(Lead::ToEnd { is_up: true }), None], later);
-    watch.accepted(later);
+    watch.note_command([Some(Lead::ToEnd { is_up: true }), None], later);
+    watch.note_acceptance(later);
     assert_eq!(
-        evidence_from(&mut watch, later, &[Drive::Jogged, Drive::Jogged, Drive::Jogged]),
+        collect_evidence(&mut watch, later, &[Drive::Jogged, Drive::Jogged, Drive::Jogged]),
         []
     );
-    watch.proved_still(later + Duration::from_secs(4));
+    watch.note_standstill(later + Duration::from_secs(4));
     let later = later + Duration::from_secs(10);
     assert_eq!(
-        evidence_from(&mut watch, later, &[Drive::Jogged, Drive::Jogged]),
+        collect_evidence(&mut watch, later, &[Drive::Jogged, Drive::Jogged]),
         [Evidence::Jogged]
     );
 }

@@ -263,7 +263,7 @@ pub(super) enum Arrival {
 
 impl Slew {
     /// Returns the end of the running motion, if any.
-    pub(super) fn aim_under_way(&self) -> Option<Pointing> {
+    pub(super) fn current_aim(&self) -> Option<Pointing> {
         match self.stage {
             SlewStage::UnderWay { leg, .. } => leg.map(|leg| leg.aim).or(self.aim),
             SlewStage::Queued { .. } | SlewStage::Over => None,
@@ -293,7 +293,7 @@ impl Slew {
         now: Instant,
     ) -> Option<Arrival> {
         let SlewStage::UnderWay { begun, leg } = self.stage else { return None };
-        let (aim, end) = (self.aim_under_way()?, self.aim?);
+        let (aim, end) = (self.current_aim()?, self.aim?);
         if requested <= begun {
             return None;
         }

@@ -12,7 +12,7 @@ const AGAIN: Duration = Duration::from_secs(3);
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct AutoTrackOff {
     /// Time of the last request on this link to disable auto-track.
-    asked_at: Option<Instant>,
+    requested_at: Option<Instant>,
     /// `true` if the operator knows that the unit keeps auto-track enabled.
     is_reported: bool,
 }
@@ -30,7 +30,7 @@ pub(super) enum NextStep {
 impl AutoTrackOff {
     /// Records the time of a request; `None` for a new link without a request.
     pub(super) fn record_request(&mut self, time: Option<Instant>) {
-        self.asked_at = time;
+        self.requested_at = time;
     }
 
     pub(super) fn is_first_report(&mut self) -> bool {
@@ -39,20 +39,19 @@ impl AutoTrackOff {
 
     /// Evaluates the auto-track reading, and repeats the request if auto-track is still on.
     pub(super) fn next(&mut self, state: &AntennaState, now: Instant) -> NextStep {
-        let asked_at = self.asked_at;
+        let requested_at = self.requested_at;
         // A report from before the command cannot show its effect.
-        let is_answer =
-            |asked_at| state.measured.is_some_and(|measured| measured.requested > asked_at);
-        let read = state.program.filter(|_| asked_at.is_some_and(is_answer));
+        let is_answer = |time| state.measured.is_some_and(|measured| measured.requested > time);
+        let read = state.program.filter(|_| requested_at.is_some_and(is_answer));
         match read.map(|program| program.auto) {
             Some(Some(false)) => NextStep::Proved,
             Some(None) => NextStep::Unreadable,
             Some(Some(true)) | None => {
-                let is_due = |asked_at| now.saturating_duration_since(asked_at) >= AGAIN;
-                if !asked_at.is_none_or(is_due) {
+                let is_due = |time| now.saturating_duration_since(time) >= AGAIN;
+                if !requested_at.is_none_or(is_due) {
                     return NextStep::Wait;
                 }
-                self.asked_at = Some(now);
+                self.requested_at = Some(now);
                 NextStep::SwitchOff
             }
         }

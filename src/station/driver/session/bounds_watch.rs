@@ -42,7 +42,7 @@ impl Session {
         let turns_unseen = self.turns_unseen(&look, intervals);
         let is_moving = rates.iter().any(|rate| rate.abs() > SLOWEST_DEG_S) || turns_unseen;
         let ahead_s = self.gate.ahead_s(now);
-        let next = self.reached(intervals, rates, turns_unseen, ahead_s);
+        let next = self.reach(intervals, rates, turns_unseen, ahead_s);
         let bounds = self.bounds_now().at_time(now.utc).turned_by(self.gate.to_sky());
         let [starts, ends] = [here, next].map(|place| bounds.min_clearances(place));
         let is_known = intervals.unknown().is_none();
@@ -71,7 +71,7 @@ impl Session {
     /// Returns `true` if an axis whose angle is unknown may turn.
     fn turns_unseen(&self, look: &Measured, intervals: Intervals) -> bool {
         let is_ours = self.mover() == Mover::Azel;
-        let axes = look.axes.iter().zip(intervals.0).zip(self.gate.turns());
+        let axes = look.axes.iter().zip(intervals.0).zip(self.gate.turning_axes());
         let mut unknown = axes.filter(|((_, interval), _)| !interval.is_known);
         unknown.any(|((axis, _), is_turned)| {
             axis.motion != AxisMotion::Still || (is_ours && is_turned)
@@ -79,7 +79,7 @@ impl Session {
     }
 
     /// Returns the possible positions of the axes after `ahead_s` seconds at these rates.
-    fn reached(
+    fn reach(
         &self,
         intervals: Intervals,
         rates: [f64; 2],
@@ -89,7 +89,7 @@ impl Session {
         let ahead_deg = rates.map(|rate| rate * ahead_s);
         if let Some(axes_deg) = intervals.angles_deg() {
             let Sweep([first, second]) =
-                Sweep::at_position(self.gate.ahead_of(axes_deg, ahead_deg));
+                Sweep::at_position(self.gate.turn_ahead(axes_deg, ahead_deg));
             let has_elevation = self.setup.can().has_elevation();
             let Sweep([_, column]) = intervals.sweep();
             return Sweep([first, if has_elevation { second } else { column }]);

@@ -64,7 +64,7 @@ impl Session {
             Command::Unlock => self.unlock(),
             Command::Jog { rates_deg_s } => self.hold_jog(rates_deg_s, now),
             Command::EndJog => self.release_jog(now),
-            Command::AllowUnguarded => self.stop.guard.allow_without(now.steady),
+            Command::AllowUnguarded => self.stop.guard.allow_unguarded(now.steady),
             Command::AllowWayOut => self.allow_way_out(now),
             Command::ForgetDrives => self.gate.forget_lessons(),
             Command::MoveAway => self.move_away(now),
@@ -134,7 +134,7 @@ impl Session {
     pub(super) fn leave_for(&mut self, activity: Activity, now: Moment) {
         // In Standby, the unit must not start on its own either.
         let is_standby = matches!(activity, Activity::Standby);
-        if self.may_move() || (is_standby && self.active()) {
+        if self.may_move() || (is_standby && self.is_active()) {
             self.halt_quietly(now);
         }
         self.commanded.key.release();
@@ -284,7 +284,7 @@ impl Session {
             // The link state shows the failure; the window locks the keys anyway.
             Command::Jog { rates_deg_s } => self.commanded.key.spend_rates(rates_deg_s),
             Command::EndJog => self.commanded.key.release(),
-            Command::AllowUnguarded => self.stop.guard.allow_without(now.steady),
+            Command::AllowUnguarded => self.stop.guard.allow_unguarded(now.steady),
             Command::AllowWayOut => self.allow_way_out(now),
             Command::ForgetDrives => self.gate.forget_lessons(),
             Command::SeenStanding => self.accept_operator_standstill(),

@@ -97,7 +97,7 @@ impl Commanded {
         self.acts = true;
     }
 
-    pub(super) fn proved_still(&mut self) {
+    pub(super) fn note_standstill(&mut self) {
         self.acts = false;
     }
 

@@ -109,17 +109,17 @@ impl Contact {
     }
 
     /// Leaves the unit to others: a later outage starts a new count.
-    pub(super) fn let_go(&mut self) {
+    pub(super) fn release(&mut self) {
         self.link = LinkState::Off;
         self.away_since = None;
         self.loss_is_reported = false;
     }
 
-    pub(super) fn connecting(&mut self, now: Instant) {
+    pub(super) fn set_connecting(&mut self, now: Instant) {
         self.link = LinkState::Connecting { start: now };
     }
 
-    pub(super) fn connected(&mut self, now: Instant) {
+    pub(super) fn set_connected(&mut self, now: Instant) {
         self.link = LinkState::Up { start: now };
     }
 
@@ -129,7 +129,7 @@ impl Contact {
     }
 
     /// Records a reply on this link: the next loss is news again.
-    pub(super) fn has_replied(&mut self) {
+    pub(super) fn note_reply(&mut self) {
         self.loss_is_reported = false;
     }
 
@@ -169,7 +169,7 @@ impl Contact {
     }
 
     /// Records the first reading on this link, which ends the outage. Returns that outage.
-    pub(super) fn read(&mut self, program_is_on: bool) -> Outage {
+    pub(super) fn note_reading(&mut self, program_is_on: bool) -> Outage {
         self.unread = false;
         self.program_was_on = program_is_on;
         Outage { away_since: self.away_since.take(), slept: std::mem::take(&mut self.slept) }
@@ -181,7 +181,7 @@ impl Contact {
         is_on && !was_on
     }
 
-    pub(super) fn has_slept(&mut self, lasted: Duration) {
+    pub(super) fn add_sleep(&mut self, lasted: Duration) {
         self.slept += lasted;
     }
 

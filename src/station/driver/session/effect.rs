@@ -156,7 +156,7 @@ impl Effects {
 
     /// Takes a position. Returns the first axis that has failed for too long to move as requested.
     /// `suspects`: axes that somebody else may have moved.
-    pub(super) fn missing(
+    pub(super) fn failed_axis(
         &mut self,
         look: &Measured,
         requested: Requested,

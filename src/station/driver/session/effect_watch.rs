@@ -19,9 +19,10 @@ impl Session {
         if !self.observed.effects.is_new(&look) {
             return;
         }
-        let (requested, figures, can) = (self.requested(&look), self.figures(), self.setup.can());
+        let (requested, figures, can) =
+            (self.requested_motion(&look), self.figures(), self.setup.can());
         let suspects = self.gate.suspects(now);
-        let missing = self.observed.effects.missing(&look, requested, suspects, can, figures);
+        let missing = self.observed.effects.failed_axis(&look, requested, suspects, can, figures);
         if let Some(axis) = missing {
             self.end_without_effect(can.axes.get(axis).copied(), now);
         }
@@ -39,7 +40,7 @@ impl Session {
     }
 
     /// Returns the motion of Azel that must show in the angles.
-    fn requested(&self, look: &Measured) -> Requested {
+    fn requested_motion(&self, look: &Measured) -> Requested {
         // A halt ends the expected motion, and without a link no angle would show it.
         if self.stop.is_under_way() || !self.contact.is_open() {
             return Requested::Nothing;

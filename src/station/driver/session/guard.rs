@@ -51,7 +51,7 @@ impl Guard {
     pub(super) fn link_up(&mut self, stream: &dyn Stream, stop: &[u8]) {
         self.line = match stream.duplicate() {
             Ok(None) => GuardedLink::InProcess,
-            Ok(Some(link)) => GuardedLink::Open { link, stop: stream.on_wire(stop) },
+            Ok(Some(link)) => GuardedLink::Open { link, stop: stream.encode(stop) },
             Err(_) => GuardedLink::Unavailable,
         };
     }
@@ -84,7 +84,7 @@ impl Guard {
     }
 
     /// Allows manual motions without a dead-man for a minute.
-    pub(super) fn allow_without(&mut self, now: Instant) {
+    pub(super) fn allow_unguarded(&mut self, now: Instant) {
         self.allowed_until = Some(now + ALLOWED);
     }
 

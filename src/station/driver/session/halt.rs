@@ -28,7 +28,7 @@ impl Session {
         self.commanded.halt(pressed);
         self.judging.drop_waiting();
         self.void_shift();
-        self.gate.halted();
+        self.gate.note_halt();
         if pressed {
             // After an operator's STOP, no motion may start on its own. The halt at the end of a
             // motion keeps the operator's auto-track setting.
@@ -48,7 +48,7 @@ impl Session {
         let bytes = self.gate.device().halt(extent, now);
         self.stop.queue(bytes);
         if extent == Extent::Everything {
-            self.owed.auto_track_asked(Some(now.steady));
+            self.owed.record_auto_track_request(Some(now.steady));
         }
     }
 
@@ -81,7 +81,7 @@ impl Session {
         let is_pressed = self.stop.end(now.steady);
         self.owed.settle_stop();
         self.prove_still();
-        self.gate.motions_over(now);
+        self.gate.note_standstill(now);
         self.end_overrun();
         if is_pressed {
             self.tell(Event::Stopped);

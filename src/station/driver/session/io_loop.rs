@@ -90,13 +90,13 @@ impl Session {
         if has_replied {
             *attempt = 0;
             // A link that never carried a reply does not count as a new one.
-            self.contact.has_replied();
+            self.contact.note_reply();
         }
         self.remember_likeness();
         self.lose_shift(now);
         self.record();
         self.gate.forget_angles();
-        self.gate.motions_unanswered();
+        self.gate.note_lost_answers();
         end
     }
 
@@ -117,9 +117,9 @@ impl Session {
                     }
                 }
                 dialled = &mut dialling => {
-                    let stream = dialled.map_err(|error| LinkLoss::Refused(in_words(&error)))?;
+                    let stream = dialled.map_err(|error| LinkLoss::Refused(error_text(&error)))?;
                     let now = self.now();
-                    self.contact.connected(now.steady);
+                    self.contact.set_connected(now.steady);
                     return Ok(Some(stream));
                 }
                 () = clock.sleep_until(deadline) => return Err(LinkLoss::ConnectTimeout),
@@ -221,7 +221,7 @@ impl Session {
         let mut buffer = [0; 4096];
         let start = self.now();
         self.gate.device().link_up(start);
-        self.owed.auto_track_asked(None);
+        self.owed.record_auto_track_request(None);
         drop(self.stop.take_bytes());
         // An owed STOP goes out on a new link before any query.
         if let Some(extent) = self.stop.extent() {
@@ -306,13 +306,13 @@ impl Session {
         if !bytes.is_empty() {
             write(&self.clock, writer, &bytes).await?;
             let now = self.now();
-            self.wrote(now);
+            self.note_write(now);
             self.gate.device().sent(&bytes, now);
         }
         let now = self.now();
         while let Some(bytes) = self.gate.device().poll(now) {
             write(&self.clock, writer, &bytes).await?;
-            self.wrote(now);
+            self.note_write(now);
             self.gate.device().sent(&bytes, now);
         }
         self.record();
@@ -333,7 +333,7 @@ impl Session {
             .chain(self.silence_due())
             .chain([due])
             .min();
-        let (clock, judged) = (self.clock.clone(), self.judging.done());
+        let (clock, judged) = (self.clock.clone(), self.judging.notifier());
         // A deadline without effect must not cause a busy loop.
         let deadline = deadline.unwrap_or(due).max(now.steady + MIN_WAIT);
         tokio::select! {
@@ -343,7 +343,7 @@ impl Session {
             read = reader.read(buffer) => match read {
                 Ok(0) => Input::Lost(LinkLoss::Closed),
                 Ok(count) => Input::Bytes(count),
-                Err(error) => Input::Lost(LinkLoss::Broken(in_words(&error))),
+                Err(error) => Input::Lost(LinkLoss::Broken(error_text(&error))),
             },
             () = judged.notified() => Input::Time,
             () = clock.sleep_until(deadline) => Input::Time,
@@ -362,16 +362,16 @@ async fn write(
     });
     match written.await {
         Ok(Ok(())) => Ok(()),
-        Ok(Err(error)) => Err(LinkLoss::Broken(in_words(&error))),
+        Ok(Err(error)) => Err(LinkLoss::Broken(error_text(&error))),
         Err(_) => {
             let stalled = io::Error::from(io::ErrorKind::TimedOut);
-            Err(LinkLoss::Broken(in_words(&stalled)))
+            Err(LinkLoss::Broken(error_text(&stalled)))
         }
     }
 }
 
 /// Returns the operating system's message without its number.
-pub(in crate::driver) fn in_words(error: &io::Error) -> String {
+pub(in crate::driver) fn error_text(error: &io::Error) -> String {
     let text = error.to_string();
     let words = text.split(" (os error").next().unwrap_or_default();
     words.to_lowercase()

@@ -75,7 +75,7 @@ impl Session {
         self.judging.end();
         while let Some(command) = self.judging.next_command() {
             self.carry_out_now(command, now);
-            self.judging.was_carried_out();
+            self.judging.reset_waits();
         }
     }
 }

@@ -89,7 +89,7 @@ impl Judging {
         self.running.is_some()
     }
 
-    pub(super) fn done(&self) -> Arc<Notify> {
+    pub(super) fn notifier(&self) -> Arc<Notify> {
         Arc::clone(&self.is_done)
     }
 
@@ -120,7 +120,7 @@ impl Judging {
             return;
         }
         let (send, running) = oneshot::channel();
-        let is_done = self.done();
+        let is_done = self.notifier();
         let work = move || {
             // The session may have ended.
             let _ = send.send(question.answer());
@@ -204,7 +204,7 @@ impl Judging {
     }
 
     /// Resets the number of waits after a command that awaits no further answer.
-    pub(super) fn was_carried_out(&mut self) {
+    pub(super) fn reset_waits(&mut self) {
         if !self.is_under_way() {
             self.tries = 0;
         }

@@ -11,7 +11,7 @@ use crate::{
 impl Session {
     /// Starts the session with a locked-out unit if `lock_out` is set.
     #[must_use]
-    pub fn locked_out(mut self, lock_out: Option<LockOut>) -> Self {
+    pub fn with_lock_out(mut self, lock_out: Option<LockOut>) -> Self {
         if let Some(lock_out) = lock_out {
             let now = self.now();
             // A query would take the panel from the person who works on the unit.
@@ -33,7 +33,7 @@ impl Session {
             self.gate.set_lock_out(Some(lock_out));
             return;
         }
-        let may_move = self.may_move() || self.active() || self.is_unproved();
+        let may_move = self.may_move() || self.is_active() || self.is_unproved();
         // Somebody else may control a released unit that Azel did not move.
         let is_left_to_others = self.contact.link_need() == LinkNeed::No && !self.is_unproved();
         if may_move && !is_left_to_others {

@@ -58,7 +58,7 @@ pub(super) enum Progress {
 /// Returns `true` for a mark that needs a question to the operator.
 pub(super) fn is_old(mark: Mark, now: Timestamp) -> bool {
     // A wrong clock wrote a mark from the future, so its age is unknown.
-    mark.last_tried().is_none_or(|time| seconds_between(time, now).abs() > OLD_S)
+    mark.last_attempt().is_none_or(|time| seconds_between(time, now).abs() > OLD_S)
 }
 
 impl Marking {
@@ -69,7 +69,7 @@ impl Marking {
     /// Follows the progress of the mark to the disk. Requests the mark if this session has not yet.
     pub(super) fn follow(&mut self, debts: &UnitDebts, now: Moment) -> Progress {
         let State::Put { first, is_reported, .. } = &mut self.0 else {
-            self.put(debts, now);
+            self.request(debts, now);
             return Progress::Pending;
         };
         let is_late = now.steady.saturating_duration_since(*first) >= MAX;
@@ -90,7 +90,7 @@ impl Marking {
     }
 
     /// Requests the mark with the current time.
-    pub(super) fn put(&mut self, debts: &UnitDebts, now: Moment) {
+    pub(super) fn request(&mut self, debts: &UnitDebts, now: Moment) {
         let (begun, first, is_reported) = match self.0 {
             State::None => (Some(now.utc), now.steady, false),
             // The debt began in the earlier run; only the attempt is new.
@@ -110,7 +110,7 @@ impl Marking {
             PromisedFile::Pending => return,
         };
         if now.steady.saturating_duration_since(last) >= after {
-            self.put(debts, now);
+            self.request(debts, now);
         }
     }
 

@@ -32,7 +32,7 @@ impl Session {
         let before = track.planner.offsets();
         let offsets = match change {
             OffsetChange::Step(step) => {
-                self.offers(step, track)?;
+                self.check_offer(step, track)?;
                 before
                     .plus(step)
                     .ok_or_else(|| Refusal::OffsetTooLarge { max: max_offset(step) })?
@@ -82,7 +82,7 @@ impl Session {
     }
 
     /// Checks whether the track can have an offset of this kind.
-    fn offers(&self, step: Offset, track: &Tracking) -> Result<(), Refusal> {
+    fn check_offer(&self, step: Offset, track: &Tracking) -> Result<(), Refusal> {
         let has_elevation = self.setup.can().has_elevation();
         match step {
             Offset::Along(_) | Offset::Across(_) if !track.planner.track().target.moves() => {

@@ -89,7 +89,7 @@ impl Watch {
 
     /// Takes the pointing error outside the beam, and the error for which Azel gives up a pass;
     /// `None` for a smaller error.
-    fn take_off(
+    fn take_error(
         &mut self,
         error: Option<Angle>,
         is_on_target: bool,
@@ -107,7 +107,7 @@ impl Watch {
     }
 
     /// Returns the direction of the satellite by the unit's clock; `None` without a known time.
-    fn by_unit_clock(
+    fn unit_clock_direction(
         &self,
         unit: &OnBoard,
         offsets: TrackOffsets,
@@ -165,7 +165,7 @@ impl Watch {
     ) -> bool {
         let resting = self.turned.filter(|(before, _)| {
             can_point
-                && figures.turned(before, measured).is_none()
+                && figures.largest_turn(before, measured).is_none()
                 && measured.direction().is_some()
         });
         let Some((before, start)) = resting else {
@@ -199,13 +199,13 @@ impl Watch {
         let slew_s = 2.0 * error.degrees() / limits.max_rate_deg_s;
         let slew = Duration::try_from_secs_f64(slew_s).unwrap_or_default();
         let is_off = |error: &Angle| *error > limits.on_target;
-        let by_clock = self.by_unit_clock(unit, offsets, measured.time);
+        let by_clock = self.unit_clock_direction(unit, offsets, measured.time);
         let by_clock =
             by_clock.and_then(|direction| measured.pointing.separation(direction.into()));
         let is_explained = by_clock.is_some_and(|error| !is_off(&error));
         let unexplained = Some(error).filter(|error| is_off(error) && !is_explained);
         let outside = Some(error).filter(|error| *error > limits.in_beam);
-        self.take_off(outside, !is_off(&error), unexplained, slew, now);
+        self.take_error(outside, !is_off(&error), unexplained, slew, now);
     }
 
     /// Returns the event for a unit that would miss or misses the satellite.

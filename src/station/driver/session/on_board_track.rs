@@ -150,7 +150,7 @@ impl Session {
         if !is_on || self.commanded.activity.is_pending() {
             return;
         }
-        let (unit, offsets, measured) = (self.plain_unit(), self.meant_offsets(), state.measured);
+        let (unit, offsets, measured) = (self.plain_unit(), self.desired_offsets(), state.measured);
         let figures = self.figures();
         let limits = PointingLimits {
             in_beam: self.setup.in_beam(figures),

@@ -71,7 +71,7 @@ impl Owed {
     pub(super) fn put_mark(&mut self, now: Moment) -> bool {
         let has_marks = self.debts.has_marks();
         if has_marks {
-            self.marking.put(&self.debts, now);
+            self.marking.request(&self.debts, now);
         }
         has_marks
     }
@@ -109,7 +109,7 @@ impl Owed {
     }
 
     /// Records a request on this link to disable auto-track; `None` for a new link.
-    pub(super) fn auto_track_asked(&mut self, time: Option<Instant>) {
+    pub(super) fn record_auto_track_request(&mut self, time: Option<Instant>) {
         self.auto_track.record_request(time);
     }
 

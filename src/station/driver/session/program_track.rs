@@ -255,14 +255,14 @@ impl Session {
     }
 
     /// Plans the next position of these axes from their current angles, and ignores sent positions.
-    pub(super) fn plan_anew(&mut self, axes: [bool; 2]) {
+    pub(super) fn replan(&mut self, axes: [bool; 2]) {
         if let Some(track) = self.commanded.activity.last_program_mut() {
             track.planner.forget_sent_of(axes);
         }
     }
 
     /// Records that the unit accepted a position.
-    pub(super) fn position_taken(&mut self) {
+    pub(super) fn note_position(&mut self) {
         if let Some(track) = self.commanded.activity.last_program_mut() {
             track.is_taken();
         }

@@ -6,8 +6,8 @@ use crate::contract::driver::{Event, Refusal};
 impl Session {
     /// Waits until the operator or a STOP wants a link; returns `false` to end the session.
     pub(super) async fn wait_until_wanted(&mut self) -> bool {
-        self.contact.let_go();
-        self.gate.watch_anew();
+        self.contact.release();
+        self.gate.restart_watch();
         let clock = self.clock.clone();
         while self.contact.link_need() == LinkNeed::No {
             let now = self.now();
@@ -40,7 +40,7 @@ impl Session {
             }
         }
         let now = self.now();
-        self.contact.connecting(now.steady);
+        self.contact.set_connecting(now.steady);
         true
     }
 

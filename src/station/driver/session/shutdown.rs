@@ -81,8 +81,8 @@ impl Session {
                 let (mut reader, mut writer) = tokio::io::split(stream);
                 let now = self.now();
                 self.gate.device().link_up(now);
-                self.contact.connected(now.steady);
-                self.owed.auto_track_asked(None);
+                self.contact.set_connected(now.steady);
+                self.owed.record_auto_track_request(None);
                 if self.stop.is_under_way() {
                     // The STOP also goes out first on this link.
                     self.halt_quietly(now);

@@ -24,7 +24,7 @@ pub(super) struct Silence {
 
 impl Silence {
     /// Records written bytes, after the total of `replies` replies.
-    pub(super) fn wrote(&mut self, replies: u64, now: Instant) {
+    pub(super) fn note_write(&mut self, replies: u64, now: Instant) {
         self.count(replies);
         if self.first.is_none() {
             self.first = Some(now);
@@ -89,9 +89,9 @@ mod tests {
         let mut silence = Silence::default();
         silence.watch(true, 0, start);
         assert_eq!(silence.due(PROMPT), None, "nothing was asked");
-        silence.wrote(0, start);
+        silence.note_write(0, start);
         assert_eq!(silence.due(PROMPT), Some(start + PROMPT + TOLD_WITHIN));
-        silence.wrote(0, start + PROMPT);
+        silence.note_write(0, start + PROMPT);
         assert_eq!(silence.due(PROMPT), Some(start + PROMPT * 2));
         assert!(silence.report() && !silence.report(), "once");
         silence.watch(true, 1, start + PROMPT);
@@ -103,7 +103,7 @@ mod tests {
         let start = Instant::now();
         let later = start + Duration::from_secs(30);
         let mut silence = Silence::default();
-        silence.wrote(0, start);
+        silence.note_write(0, start);
         assert_eq!(silence.due(PROMPT), None, "nothing moves");
         silence.watch(true, 0, later);
         assert_eq!(silence.due(PROMPT), Some(later + PROMPT + TOLD_WITHIN));

@@ -38,8 +38,8 @@ impl Session {
         }
         let lasted = change.slept?;
         self.tell(Event::Safety(Safety::Slept { lasted }));
-        self.contact.has_slept(lasted);
-        self.gate.watch_anew();
+        self.contact.add_sleep(lasted);
+        self.gate.restart_watch();
         self.contact.is_open().then_some(LinkLoss::Slept)
     }
 }

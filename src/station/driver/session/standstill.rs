@@ -55,7 +55,7 @@ impl Figures {
 
     /// Returns the axis with the largest turn between two positions, and the turn in degrees.
     /// Returns `None` if no axis has turned by more than a standing axis may.
-    pub(super) fn turned(self, before: &Measured, after: &Measured) -> Option<(usize, f64)> {
+    pub(super) fn largest_turn(self, before: &Measured, after: &Measured) -> Option<(usize, f64)> {
         let pairs = before.axes.iter().zip(&after.axes).take(self.axes).enumerate();
         pairs
             .filter_map(|(axis, (before, after))| {
@@ -95,7 +95,7 @@ pub(super) struct Looks {
     /// Request time of the last position.
     last: Option<Instant>,
     /// Last position after which another one was requested.
-    asked_after: Option<Instant>,
+    requested_after: Option<Instant>,
     /// `true` if two positions differed, regardless of the flags.
     turned: bool,
 }
@@ -115,14 +115,14 @@ impl Looks {
     /// Returns `true` until a request follows the last position. Azel may have sent an earlier
     /// query too soon for a proof.
     pub(super) fn awaits_look(&self) -> bool {
-        self.last != self.asked_after
+        self.last != self.requested_after
     }
 
     /// Returns `true` once for each position, when the session must request the next one.
     pub(super) fn is_due(&mut self, figures: Figures, now: Instant) -> bool {
         let is_due = self.awaits_look() && self.next(figures).is_some_and(|time| now >= time);
         if is_due {
-            self.asked_after = self.last;
+            self.requested_after = self.last;
         }
         is_due
     }
@@ -141,7 +141,7 @@ impl Looks {
         // between.
         let on_link =
             self.first.filter(|first| link_since.is_some_and(|begun| first.requested >= begun));
-        let first = on_link.filter(|first| figures.turned(first, &look).is_none());
+        let first = on_link.filter(|first| figures.largest_turn(first, &look).is_none());
         self.turned |= on_link.is_some() && first.is_none();
         if !is_at_rest {
             self.first = None;
@@ -193,7 +193,7 @@ impl Rest {
             return None;
         }
         let anchor = anchor.get_or_insert(look);
-        let turned = figures.turned(anchor, &look)?;
+        let turned = figures.largest_turn(anchor, &look)?;
         // A short motion may begin and end between two positions. The axes may continue after it.
         let is_new = began.is_some_and(|began| {
             self.shown < Some(began)

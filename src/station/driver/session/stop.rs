@@ -35,7 +35,7 @@ struct Halting {
 }
 
 impl Halting {
-    fn extent_again(&self) -> Extent {
+    fn repeat_extent(&self) -> Extent {
         // A repeated halt no longer trusts the known state: a track that read as off may be on.
         if self.pressed { Extent::Everything } else { Extent::Track }
     }
@@ -103,7 +103,7 @@ impl Stop {
 
     /// Returns the extent with which to repeat the current halt.
     pub(super) fn extent(&self) -> Option<Extent> {
-        self.halting().map(Halting::extent_again)
+        self.halting().map(Halting::repeat_extent)
     }
 
     fn halting(&self) -> Option<&Halting> {
@@ -113,7 +113,7 @@ impl Stop {
         }
     }
 
-    pub(super) fn shown(&self, now: Instant) -> StopState {
+    pub(super) fn state(&self, now: Instant) -> StopState {
         match &self.stage {
             Stage::UnderWay(halting) if halting.is_reported => {
                 StopState::NotConfirmed { start: halting.begun }
@@ -181,7 +181,7 @@ impl Stop {
         if sends_again {
             halting.again_at = now + patience;
         }
-        let send_again = sends_again.then(|| halting.extent_again());
+        let send_again = sends_again.then(|| halting.repeat_extent());
         HaltLook { proof: None, send_again, asks_position, is_overdue }
     }
 

@@ -132,17 +132,17 @@ impl Session {
                 }
             }
             ControllerEvent::Accepted(request) => {
-                self.gate.motion_accepted(now);
+                self.gate.note_acceptance(now);
                 if let MotionRequest::Motion(Motion::Position { .. }) = request {
-                    self.position_taken();
+                    self.note_position();
                 }
             }
             ControllerEvent::Refused(request, code) => {
-                self.gate.motion_not_accepted();
+                self.gate.note_refusal();
                 self.forget(request, Event::Refused(request, code), now);
             }
             ControllerEvent::Unanswered(request) => {
-                self.gate.motion_not_accepted();
+                self.gate.note_refusal();
                 let before_deg = self.gate.started_from_deg();
                 self.commanded.doubt(request, before_deg, now.steady);
             }
@@ -208,14 +208,14 @@ impl Session {
             let [first_now, second_now] = after;
             [first_now - first, second_now - second].map(|deg| deg.abs() > TURNED_DEG)
         });
-        if self.active() || turned.contains(&true) {
+        if self.is_active() || turned.contains(&true) {
             // A controller that sends an order for each axis may have sent only the first order.
             let mut is_open = turned.map(|turned| !turned);
             let axes = self.gate.state().measured.into_iter().flat_map(|measured| measured.axes);
             for (is_open, axis) in is_open.iter_mut().zip(axes) {
                 *is_open &= axis.motion == AxisMotion::Still;
             }
-            self.plan_anew(is_open);
+            self.replan(is_open);
         } else if !self.may_send_another() {
             self.forget(request, Event::Unanswered(request), now);
         }
@@ -233,10 +233,10 @@ impl Session {
         if !self.contact.is_unread() || state.measured_on_link().is_none() {
             return;
         }
-        let outage = self.contact.read(tracks);
+        let outage = self.contact.note_reading(tracks);
         let found = if tracks {
             Found::Tracking
-        } else if self.turns() {
+        } else if self.is_turning() {
             Found::Moving
         } else {
             Found::Still
@@ -327,7 +327,7 @@ impl Session {
 
     /// Sends the next motion of a slew, or reports how it has ended.
     fn watch_slew(&mut self, now: Moment) {
-        let (turns, within_deg) = (self.turns(), self.setup.can().arrives_within_deg);
+        let (turns, within_deg) = (self.is_turning(), self.setup.can().arrives_within_deg);
         let turned = self.observed.effects.last_change();
         let Some(measured) = self.gate.state().measured else { return };
         let Some(position) = self.gate.pointing() else { return };

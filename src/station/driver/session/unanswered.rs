@@ -7,8 +7,8 @@ use crate::{
 };
 
 impl Session {
-    pub(super) fn wrote(&mut self, now: Moment) {
-        self.contact.silence.wrote(self.gate.state().traffic.replies, now.steady);
+    pub(super) fn note_write(&mut self, now: Moment) {
+        self.contact.silence.note_write(self.gate.state().traffic.replies, now.steady);
     }
 
     /// Returns `true` while a motion of Azel may run. Until STOP is proved, a motion may run even
@@ -17,7 +17,7 @@ impl Session {
         self.is_unproved()
             && (self.follows_now()
                 || self.stop.is_under_way()
-                || self.turns()
+                || self.is_turning()
                 || self.gate.state().program.is_some_and(|program| program.enabled)
                 || self.commanded.is_pending()
                 || self.gate.device().motion_under_way())

@@ -100,7 +100,7 @@ impl UnitDebts {
 
     /// Waits until the disk has stored all requests for this unit.
     pub(super) async fn settled(&self) {
-        self.debts.settled(&self.unit).await;
+        self.debts.wait_for_disk(&self.unit).await;
     }
 
     /// Returns the offsets that Azel added for a track of the unit.

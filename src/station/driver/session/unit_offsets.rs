@@ -76,7 +76,7 @@ impl Session {
             return Ok(None);
         }
         let unit = &self.gate.state().on_board;
-        let current = self.held_offsets().ok_or(Refusal::OffsetsUnknown)?;
+        let current = self.current_offsets().ok_or(Refusal::OffsetsUnknown)?;
         let shifted = self.owed.debts().shifted();
         let before = shifted.map_or(current, |shifted| shifted.before);
         let after = before.checked_add(requested).ok_or(Refusal::NotOffered)?;
@@ -100,7 +100,7 @@ impl Session {
         if !self.unit_offsets.is_idle() {
             return;
         }
-        let Some(current) = self.held_offsets() else { return self.forget_wanted() };
+        let Some(current) = self.current_offsets() else { return self.forget_request() };
         if requested.is_none() {
             // The record of added offsets stays until the unit reads as before.
             return self.write_shift(fields, now);
@@ -115,15 +115,15 @@ impl Session {
         };
         let mut shifted = recorded.unwrap_or(new);
         let Some(after) = shifted.before.checked_add(requested) else {
-            return self.forget_wanted();
+            return self.forget_request();
         };
         shifted.track = self.reported_track();
         if self.unit_offsets.is_sure() {
             // The unit has the values that it read back, and no older ones.
             shifted.put.clear();
         }
-        shifted.may_be(current);
-        shifted.may_be(after);
+        shifted.record(current);
+        shifted.record(after);
         self.owed.debts().set_shifted(Some(shifted));
         if self.owed.debts().has_marks() {
             self.unit_offsets.begin_marking(requested);
@@ -141,7 +141,7 @@ impl Session {
             Ok(None) => self.unit_offsets.is_in_force(),
             Err(refusal) => {
                 let is_taking_back = self.unit_offsets.is_taking_back();
-                self.forget_wanted();
+                self.forget_request();
                 if is_taking_back && self.added_track_is_over(now) {
                     self.unit_offsets.fail(LeftOffsets::Refused(refusal), now.steady);
                 } else {
@@ -158,7 +158,7 @@ impl Session {
         now: Moment,
     ) -> Result<Option<u64>, Refusal> {
         let Some(requested) = self.unit_offsets.requested() else { return Ok(None) };
-        let current = self.held_offsets().ok_or(Refusal::OffsetsUnknown)?;
+        let current = self.current_offsets().ok_or(Refusal::OffsetsUnknown)?;
         let Some(shifted) = self.owed.debts().shifted() else { return Ok(None) };
         let after = shifted.before.checked_add(requested).ok_or(Refusal::NotOffered)?;
         let values = fields.values(current, after);
@@ -184,7 +184,7 @@ impl Session {
                 PromisedFile::Pending => return,
                 PromisedFile::Failed(_) => {
                     self.unit_offsets.end_step();
-                    self.forget_wanted();
+                    self.forget_request();
                     self.tell(Event::OffsetRefused(Refusal::NoOffsetsRecord));
                 }
                 PromisedFile::OnDisk => {
@@ -221,12 +221,12 @@ impl Session {
             Ok(()) => self.begin_shift(fields, now),
             Err(error) => {
                 if let WriteError::Differs(_) = error {
-                    self.own_read_back();
+                    self.adopt_read_back();
                 }
                 if may_apply_late(error) {
                     self.unit_offsets.doubt(now.steady);
                 }
-                self.forget_wanted();
+                self.forget_request();
                 if !matches!(error, WriteError::Stopped | WriteError::ChangedMeanwhile) {
                     self.read_offsets_again(fields);
                 }
@@ -245,7 +245,7 @@ impl Session {
 
     /// Marks the offsets as unknown until the next reading of the unit.
     fn read_offsets_again(&mut self, fields: &TrackOffsetFields) {
-        self.unit_offsets.unread(self.read_at());
+        self.unit_offsets.mark_unread(self.last_read());
         self.gate.device().read_group(fields.group);
     }
 
@@ -263,8 +263,8 @@ impl Session {
             return;
         }
         let is_taking_back = self.unit_offsets.is_taking_back();
-        self.unit_offsets.unread(self.read_at());
-        self.forget_wanted();
+        self.unit_offsets.mark_unread(self.last_read());
+        self.forget_request();
         // The removal stays pending, so Azel reports no failure.
         if !is_taking_back {
             self.tell(Event::OffsetNotTaken(WriteError::LinkLost));
@@ -280,7 +280,7 @@ impl Session {
             }
             return;
         };
-        let Some(current) = self.held_offsets() else { return };
+        let Some(current) = self.current_offsets() else { return };
         let Some(added) = shifted.added(current) else {
             return self.leave_foreign(shifted, current, now);
         };
@@ -316,7 +316,7 @@ impl Session {
             self.tell(Event::OffsetNotTaken(WriteError::ChangedMeanwhile));
         }
         let is_sure = self.unit_offsets.is_settled(now.steady);
-        match shifted.without_foreign(current) {
+        match shifted.drop_foreign(current) {
             Some(left) if left.before != current || !is_sure => {
                 self.owed.debts().set_shifted(Some(left));
             }
@@ -338,12 +338,12 @@ impl Session {
 
     /// Records offsets that read back differently from the written ones, because they also come
     /// from Azel.
-    fn own_read_back(&self) {
+    fn adopt_read_back(&self) {
         let debts = self.owed.debts();
-        let current = self.held_offsets();
+        let current = self.current_offsets();
         let Some((mut shifted, current)) = debts.shifted().zip(current) else { return };
         if shifted.added(current).is_none() {
-            shifted.may_be(current);
+            shifted.record(current);
             debts.set_shifted(Some(shifted));
         }
     }
@@ -355,9 +355,9 @@ impl Session {
     }
 
     /// Drops the wanted offsets.
-    fn forget_wanted(&mut self) {
+    fn forget_request(&mut self) {
         let in_force = self.added_offsets();
-        self.unit_offsets.forget_wanted(in_force);
+        self.unit_offsets.forget_request(in_force);
     }
 
     /// Voids a change after a halt, unless the change is already on its way to the unit.

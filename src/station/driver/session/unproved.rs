@@ -17,10 +17,10 @@ impl Session {
 
     /// Records standstill after a halt. A unit that may start on its own stays unproved.
     pub(super) fn prove_still(&mut self) {
-        self.commanded.proved_still();
+        self.commanded.note_standstill();
         // A unit with auto-track on may begin to turn at any time without a command of Azel.
         if !self.may_start_by_itself() {
-            self.gate.proved_still();
+            self.gate.clear_unproved();
         }
     }
 

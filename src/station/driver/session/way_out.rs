@@ -42,7 +42,7 @@ impl Session {
         let is_outside = barrier.is_none();
         self.observed.place.set(barrier, axis);
         if is_outside {
-            self.gate.let_out(None);
+            self.gate.permit_exit(None);
         }
     }
 
@@ -64,7 +64,7 @@ impl Session {
 
     /// Allows manual motions out of the barrier for a minute.
     pub(super) fn allow_way_out(&mut self, now: Moment) {
-        self.gate.let_out(Some(now.steady + ALLOWED));
+        self.gate.permit_exit(Some(now.steady + ALLOWED));
     }
 
     /// Starts program track. The track may lead to the Sun only with the operator's permission.

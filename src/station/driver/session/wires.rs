@@ -110,7 +110,7 @@ impl Wires {
     }
 
     /// Adds a channel that announces the sleep of this computer.
-    pub(in crate::driver) fn hearing(mut self, before_sleep: mpsc::Receiver<Awake>) -> Self {
+    pub(in crate::driver) fn with_sleep(mut self, before_sleep: mpsc::Receiver<Awake>) -> Self {
         self.before_sleep = Some(Arc::new(AsyncMutex::new(before_sleep)));
         self
     }

@@ -244,14 +244,15 @@ fn look_closely(seed: u64) -> Outcome {
     let metal = Metal { state: case.state.clone(), started, objection, leads_to };
     let mut gate = Gate::new(Box::new(metal), &antenna, bounds.clone(), &Default::default());
     let now = Moment { steady: measured_at(&case) + case.age, utc };
-    gate.let_out(Some(now.steady + Duration::from_secs(1)));
+    gate.permit_exit(Some(now.steady + Duration::from_secs(1)));
     if gate.check(motion, intent, now).is_err() {
         return Outcome::Refused;
     }
     let situation = gate.situation(intent, false, now);
     let (to_deg, is_hand) = match motion {
         Motion::Jog { x_deg_s, y_deg_s } => {
-            let ahead = situation.turning([x_deg_s, y_deg_s]).map(|rate| rate * situation.ahead_s);
+            let ahead =
+                situation.actual_rates([x_deg_s, y_deg_s]).map(|rate| rate * situation.ahead_s);
             ([from_deg[0] + ahead[0], from_deg[1] + ahead[1]], true)
         }
         Motion::Step { x_deg, y_deg } => ([from_deg[0] + x_deg, from_deg[1] + y_deg], true),

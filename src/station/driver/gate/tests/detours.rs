@@ -8,7 +8,7 @@ use crate::{
 
 /// Returns an antenna at 20 degrees of elevation beside a mast between 100 and 120 degrees. The
 /// mast blocks the direct path to the other side and both paths that turn one axis after the other.
-fn beside_a_mast() -> Case {
+fn mast_case() -> Case {
     let mut case = Case::new(Intent::Track);
     case.antenna.mount = Mount::AzEl {
         azimuth_from_deg: 0.0,
@@ -42,7 +42,7 @@ fn open(routed: Result<Route, NoRoute>) -> Option<Box<DetourQuestion>> {
 
 #[test]
 fn there_is_no_route_until_a_detour_has_been_looked_for_and_it_grows_old() {
-    let case = beside_a_mast();
+    let case = mast_case();
     let mut gate = case.gate(&Arc::default());
     let now = case.now();
     let motion = position(140.0, 20.0);
@@ -62,7 +62,7 @@ fn there_is_no_route_until_a_detour_has_been_looked_for_and_it_grows_old() {
 
 #[test]
 fn a_detour_within_other_bounds_is_looked_for_anew() {
-    let case = beside_a_mast();
+    let case = mast_case();
     let mut gate = case.gate(&Arc::default());
     let (now, motion) = (case.now(), position(140.0, 20.0));
     let question = open(gate.route(motion, Intent::Track, now)).expect("nobody has looked");
@@ -77,7 +77,7 @@ fn a_detour_within_other_bounds_is_looked_for_anew() {
 /// Only program track can follow a detour.
 #[test]
 fn a_slew_has_no_detour() {
-    let case = beside_a_mast();
+    let case = mast_case();
     let gate = case.gate(&Arc::default());
     let routed = gate.route(position(140.0, 20.0), Intent::Position, case.now());
     assert!(matches!(routed, Err(NoRoute::Refused(Refusal::Forbidden { .. }))), "{routed:?}");
@@ -86,7 +86,7 @@ fn a_slew_has_no_detour() {
 /// The axes have turned further since the last reading, and continue until the unit obeys.
 #[test]
 fn a_motion_begins_wherever_the_last_one_has_led_by_then() {
-    let mut case = beside_a_mast();
+    let mut case = mast_case();
     let measured = case.state.measured.as_mut().unwrap();
     measured.pointing = AzEl::from_degrees(130.0, 45.0).into();
     for (axis, deg) in measured.axes.iter_mut().zip([130.0, 45.0]) {
@@ -100,7 +100,7 @@ fn a_motion_begins_wherever_the_last_one_has_led_by_then() {
         let now = Moment { steady: now.steady + later, ..now };
         let over_the_mast = position(80.0, 45.0);
         let answer = gate.check(over_the_mast, Intent::Track, now);
-        gate.halted();
+        gate.note_halt();
         assert_eq!(gate.check(over_the_mast, Intent::Track, now), Ok(()), "it stands");
         answer
     };

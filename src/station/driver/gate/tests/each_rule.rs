@@ -43,7 +43,7 @@ struct Needed {
     is_its_refusal: fn(&Refusal) -> bool,
 }
 
-fn put(gate: &mut Gate, case: &Case, request: Request) -> Result<(), Refusal> {
+fn submit(gate: &mut Gate, case: &Case, request: Request) -> Result<(), Refusal> {
     let (intent, stopping, now) = (case.intent, case.stopping, case.now());
     let act = |action| Act { action, values: Values::new() };
     let change = || Change {
@@ -63,7 +63,7 @@ fn put(gate: &mut Gate, case: &Case, request: Request) -> Result<(), Refusal> {
     }
 }
 
-fn locked_out(case: Case) -> Case {
+fn lock_out(case: Case) -> Case {
     let lock_out = LockOut {
         operator: "Ada".to_owned(),
         reason: "gear".to_owned(),
@@ -73,7 +73,7 @@ fn locked_out(case: Case) -> Case {
 }
 
 /// Adds a mast between 100 and 120 degrees, up to 40 degrees.
-pub(super) fn beside_a_mast(case: Case) -> Case {
+pub(super) fn add_mast(case: Case) -> Case {
     let corners_deg = [(100.0, -5.0), (120.0, -5.0), (120.0, 40.0), (100.0, 40.0)];
     let mast = KeepOut {
         name: "mast".to_owned(),
@@ -87,7 +87,7 @@ pub(super) fn beside_a_mast(case: Case) -> Case {
 }
 
 /// Makes a keep-out of the station unreadable.
-pub(super) fn unread(case: Case) -> Case {
+pub(super) fn make_unread(case: Case) -> Case {
     let unread = Unread { place: "keep_out[0]".to_owned(), antenna: None };
     Case { unread: vec![unread], ..case }
 }
@@ -123,7 +123,7 @@ fn motions() -> Vec<Needed> {
     let manual = || Case::new(Manual);
     let turn = Request::Motion(jog(1.0, 0.0));
     vec![
-        needed("unit_is_not_locked_out", locked_out(manual()), turn, |refusal| {
+        needed("unit_is_not_locked_out", lock_out(manual()), turn, |refusal| {
             matches!(refusal, Refusal::LockedOut { .. })
         }),
         needed("something_is_asked_for", manual(), Request::Motion(jog(0.0, 0.0)), |refusal| {
@@ -131,7 +131,7 @@ fn motions() -> Vec<Needed> {
         }),
         needed(
             "safety_settings_are_read",
-            unread(manual()),
+            make_unread(manual()),
             Request::Motion(jog(0.5, 0.0)),
             |refusal| matches!(refusal, Refusal::SettingsUnread { .. }),
         ),
@@ -187,7 +187,7 @@ fn motions() -> Vec<Needed> {
         ),
         needed(
             "way_is_clear",
-            beside_a_mast(genius(Position)),
+            add_mast(genius(Position)),
             Request::Motion(position(160.0, 20.0)),
             |refusal| matches!(refusal, Refusal::Forbidden { .. }),
         ),
@@ -215,12 +215,9 @@ fn motions() -> Vec<Needed> {
 fn actions_and_settings() -> Vec<Needed> {
     use crate::contract::driver::Intent::Manual;
     vec![
-        needed(
-            "no_action_while_locked_out",
-            locked_out(rc2000c(Manual)),
-            Request::Act,
-            |refusal| matches!(refusal, Refusal::LockedOut { .. }),
-        ),
+        needed("no_action_while_locked_out", lock_out(rc2000c(Manual)), Request::Act, |refusal| {
+            matches!(refusal, Refusal::LockedOut { .. })
+        }),
         needed(
             "the_end_of_the_action_can_be_known",
             Case { leads_to: Lead::Unknown("not calibrated"), ..rc2000c(Manual) },
@@ -236,7 +233,7 @@ fn actions_and_settings() -> Vec<Needed> {
         needed(
             "an_unseen_way_is_watched",
             changed(
-                Case { leads_to: Lead::Unseen("names only"), ..beside_a_mast(rc2000c(Manual)) },
+                Case { leads_to: Lead::Unseen("names only"), ..add_mast(rc2000c(Manual)) },
                 |case| case.axes()[0].angle_deg = None,
             ),
             Request::AgreedAct,
@@ -253,16 +250,13 @@ fn actions_and_settings() -> Vec<Needed> {
         ),
         needed(
             "way_of_the_action_is_clear",
-            Case {
-                leads_to: Lead::To([Some(160.0), Some(20.0)]),
-                ..beside_a_mast(rc2000c(Manual))
-            },
+            Case { leads_to: Lead::To([Some(160.0), Some(20.0)]), ..add_mast(rc2000c(Manual)) },
             Request::MovingAct,
             |refusal| matches!(refusal, Refusal::Forbidden { .. }),
         ),
         needed(
             "no_setting_while_locked_out",
-            locked_out(idle_satrak()),
+            lock_out(idle_satrak()),
             Request::Setting,
             |refusal| matches!(refusal, Refusal::LockedOut { .. }),
         ),
@@ -291,13 +285,13 @@ fn actions_and_settings() -> Vec<Needed> {
 fn a_case_that_only_this_rule_refuses_passes_without_it() {
     for Needed { rule, case, request, is_its_refusal } in table() {
         let gate = || case.gate(&Arc::default());
-        let Err(refused) = put(&mut gate(), &case, request) else {
+        let Err(refused) = submit(&mut gate(), &case, request) else {
             panic!("{rule} lets it through")
         };
         assert!(is_its_refusal(&refused), "{rule}: {refused:?}");
-        assert_eq!(put(&mut gate().omit(rule), &case, request), Ok(()), "without {rule}");
+        assert_eq!(submit(&mut gate().omit(rule), &case, request), Ok(()), "without {rule}");
         for other in RULES.iter().filter(|other| other.name != rule) {
-            let answer = put(&mut gate().omit(other.name), &case, request);
+            let answer = submit(&mut gate().omit(other.name), &case, request);
             assert_eq!(answer, Err(refused.clone()), "{rule}, without {}", other.name);
         }
     }

@@ -23,7 +23,7 @@ pub(super) fn rc2000c(intent: Intent) -> Case {
     new_case(Antenna::rc2000c("Dish", ""), intent)
 }
 
-fn alone(intent: Intent) -> Case {
+fn single_rotator(intent: Intent) -> Case {
     let mut antenna = Antenna::genius("Mast", "");
     antenna.connection.put(&ROTATORS, Rotators::First).unwrap();
     new_case(antenna, intent)
@@ -34,7 +34,7 @@ fn what_a_controller_cannot_do_is_not_asked_of_it() {
     assert_eq!(genius(Intent::Track).ask(Motion::StartProgram), Err(Refusal::NotOffered));
     assert_eq!(genius(Intent::Track).ask(Motion::EnableAuto), Err(Refusal::NotOffered));
     assert_eq!(genius(Intent::Manual).ask(step(1.0, 0.0)), Err(Refusal::NotOffered));
-    let alone = alone(Intent::Position);
+    let alone = single_rotator(Intent::Position);
     assert_eq!(alone.ask(position(10.0, 20.0)), Err(Refusal::NotOffered), "no elevation axis");
     assert_eq!(alone.ask(position(10.0, None)), Ok(()));
 }
@@ -219,7 +219,7 @@ fn a_motion_over_the_zenith_ends_on_the_other_side() {
 
 #[test]
 fn an_axis_without_an_angle_may_come_from_anywhere_in_its_travel() {
-    let mut case = each_rule::beside_a_mast(rc2000c(Intent::Position));
+    let mut case = each_rule::add_mast(rc2000c(Intent::Position));
     assert_eq!(case.ask(position(60.0, 20.0)), Ok(()));
     case.axes()[0].angle_deg = None;
     assert!(matches!(case.ask(position(60.0, 20.0)), Err(Refusal::Forbidden { .. })));
@@ -234,7 +234,7 @@ fn an_action_ends_where_it_leads_and_not_where_the_motion_before_did() {
     case.leads_to = Lead::To([Some(200.0), Some(45.0)]);
     let mut gate = case.gate(&Arc::default());
     gate.start(position(50.0, 45.0), Intent::Position, false, case.now()).unwrap();
-    let first_deg = |gate: &Gate, from_deg: f64| gate.ahead_of([from_deg, 45.0], [6.0, 0.0])[0];
+    let first_deg = |gate: &Gate, from_deg: f64| gate.turn_ahead([from_deg, 45.0], [6.0, 0.0])[0];
     assert!((first_deg(&gate, 48.0) - 50.0).abs() < 1e-9);
     let act = Act { action: "to_counts", values: [].into() };
     gate.act(act, false, Intent::Position, false, case.now()).unwrap();
@@ -266,7 +266,7 @@ fn by_hand_it_may_go_along_an_edge_to_where_the_way_out_is_shorter() {
     }
     let mut gate = case.gate(&Arc::default());
     let now = case.now();
-    gate.let_out(Some(now.steady + Duration::from_secs(1)));
+    gate.permit_exit(Some(now.steady + Duration::from_secs(1)));
     assert_eq!(gate.check(jog(-4.0, 0.0), Intent::Manual, now), Ok(()));
     for motion in [jog(4.0, 0.0), jog(0.0, -4.0)] {
         assert!(gate.check(motion, Intent::Manual, now).is_err(), "{motion:?}");
@@ -302,7 +302,7 @@ fn by_hand_it_leaves_a_keep_out_and_enters_it_nowhere_again() {
     }
     let mut gate = case.gate(&Arc::default());
     let now = case.now();
-    gate.let_out(Some(now.steady + Duration::from_secs(1)));
+    gate.permit_exit(Some(now.steady + Duration::from_secs(1)));
     assert_eq!(gate.check(step(8.0, 0.0), Intent::Manual, now), Ok(()));
     let answer = gate.check(step(14.0, 0.0), Intent::Manual, now);
     assert!(matches!(answer, Err(Refusal::Forbidden { .. })), "{answer:?}");
@@ -345,7 +345,7 @@ fn an_axis_that_a_program_track_sent_somewhere_is_still_on_its_way_when_the_othe
     let rounded = |gate: &Gate| gate.sent_to_deg().map(|to_deg| to_deg.map(f64::round));
     let mut gate = started(Intent::Track);
     assert_eq!(rounded(&gate), [Some(60.0), Some(70.0)]);
-    gate.halted();
+    gate.note_halt();
     assert_eq!(rounded(&gate), [None; 2]);
     // A motion to a position replaces the previous motion.
     assert_eq!(rounded(&started(Intent::Position)), [None, Some(70.0)]);

@@ -103,7 +103,7 @@ fn the_beam_gets_out_by_hand_with_permission() {
     let mast = Barrier::KeepOut("mast".into());
     let (out, deeper) = (jog(0.5, 0.0), jog(-0.5, 0.0));
     assert_eq!(gate.check(out, Intent::Manual, now), Err(Refusal::Inside(mast)));
-    gate.let_out(Some(now.steady + Duration::from_mins(1)));
+    gate.permit_exit(Some(now.steady + Duration::from_mins(1)));
     assert_eq!(gate.check(out, Intent::Manual, now), Ok(()));
     let refused = gate.check(deeper, Intent::Manual, now);
     assert!(matches!(refused, Err(Refusal::Forbidden { .. })), "{refused:?}");
@@ -116,7 +116,7 @@ fn the_axes_get_out_by_hand_where_only_they_are_inside() {
     let case = case_at(103.0, Intent::Manual);
     let mut gate = case.gate(&Arc::default());
     let now = case.now();
-    gate.let_out(Some(now.steady + Duration::from_mins(1)));
+    gate.permit_exit(Some(now.steady + Duration::from_mins(1)));
     assert_eq!(gate.check(jog(-0.5, 0.0), Intent::Manual, now), Ok(()));
     // The beam would enter the mast.
     let refused = gate.check(jog(0.5, 0.0), Intent::Manual, now);

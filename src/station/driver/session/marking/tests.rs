@@ -170,7 +170,7 @@ async fn a_unit_out_of_reach_for_an_hour_gets_its_stop_first_after_a_kill() {
         // Simulate a kill of the program here: only its file remains.
         let mark = debts.marked(&Unit::new(&antenna())).unwrap();
         let now = START + SignedDuration::from_secs(3605);
-        assert!(seconds_between(mark.last_tried().unwrap(), now).abs() <= 90.0, "{mark:?}");
+        assert!(seconds_between(mark.last_attempt().unwrap(), now).abs() <= 90.0, "{mark:?}");
         let killed = tempfile::tempdir().unwrap();
         Debts::marked_in(Some(killed.path().to_owned())).mark(&Unit::new(&antenna()), 0, mark);
         let debts = Debts::marked_in(Some(killed.path().to_owned()));
@@ -265,7 +265,7 @@ async fn a_mark_that_the_disk_takes_late_does_not_outlive_standstill() {
     disk.go_on();
     assert_eq!(disk.begun(), FileState::Absent);
     disk.go_on();
-    debts.settled(&Unit::new(&antenna())).await;
+    debts.wait_for_disk(&Unit::new(&antenna())).await;
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
@@ -312,10 +312,10 @@ async fn a_stop_that_is_owed_is_on_disk_until_it_is_proved() {
     wait("standstill is proved", || !is_marked()).await;
 }
 
-/// Waits until `is_it` holds. Also lets real time pass, for the disk.
-async fn wait(goal: &str, is_it: impl Fn() -> bool) {
+/// Waits until `is_reached` holds. Also lets real time pass, for the disk.
+async fn wait(goal: &str, is_reached: impl Fn() -> bool) {
     for _ in 0..2_000 {
-        if is_it() {
+        if is_reached() {
             return;
         }
         sleep(Duration::from_millis(10)).await;

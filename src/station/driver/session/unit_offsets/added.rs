@@ -18,7 +18,7 @@ impl Session {
     /// Returns the difference between the last read offsets and those before Azel's change; `None`
     /// if unknown.
     pub(super) fn added_offsets(&self) -> Option<TrackOffsets> {
-        let current = self.held_offsets()?;
+        let current = self.current_offsets()?;
         match self.owed.debts().shifted() {
             Some(shifted) => shifted.added(current),
             None => Some(TrackOffsets::NONE),
@@ -26,19 +26,19 @@ impl Session {
     }
 
     /// Returns the last read offsets of the unit in azimuth and elevation; `None` if unknown.
-    pub(super) fn held_offsets(&self) -> Option<TrackOffsets> {
-        let is_read = self.unit_offsets.is_read(self.read_at());
+    pub(super) fn current_offsets(&self) -> Option<TrackOffsets> {
+        let is_read = self.unit_offsets.is_read(self.last_read());
         self.gate.state().on_board.offsets.filter(|_| is_read)?.of_the_axes()
     }
 
     /// Returns the time of the last reading of the unit's offsets.
-    pub(super) fn read_at(&self) -> Option<Timestamp> {
+    pub(super) fn last_read(&self) -> Option<Timestamp> {
         let group = self.gate.state().groups.get(self.setup.track_offsets()?.group)?;
         Some(group.last_read.as_ref()?.read_at)
     }
 
     /// Returns the desired offsets: the antenna should point this far off its target.
-    pub(in crate::driver::session) fn meant_offsets(&self) -> TrackOffsets {
+    pub(in crate::driver::session) fn desired_offsets(&self) -> TrackOffsets {
         // Leftover offsets of an earlier run, or offsets that Azel failed to remove, are an error
         // of this track.
         let is_meant = self.unit_offsets.left().is_none()
@@ -48,13 +48,13 @@ impl Session {
 
     /// Returns the reported state of the unit without the desired offsets.
     pub(in crate::driver::session) fn plain_unit(&self) -> OnBoard {
-        self.gate.state().on_board.without_offsets(self.meant_offsets())
+        self.gate.state().on_board.without_offsets(self.desired_offsets())
     }
 
     /// Returns the rotation from the modelled beam direction to the true one on the sky. Returns
     /// `None` unless the added offsets correct errors of the mount.
     pub(in crate::driver::session) fn unit_to_sky(&self, now: Moment) -> Option<DQuat> {
-        let offsets = Some(self.meant_offsets()).filter(|offsets| !offsets.is_none())?;
+        let offsets = Some(self.desired_offsets()).filter(|offsets| !offsets.is_none())?;
         let judge = self.on_board_watch().filter(|_| self.program_is_on())?.judge();
         let axes = offsets.demanded(now.utc, |time| judge.direction(time))?;
         let beam = self.setup.track_config().model.direction(axes);

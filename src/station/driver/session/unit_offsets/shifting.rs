@@ -142,7 +142,7 @@ impl Shifting {
     }
 
     /// Drops the wanted offsets, and the undo steps that would change nothing.
-    pub(super) fn forget_wanted(&mut self, in_force: Option<TrackOffsets>) {
+    pub(super) fn forget_request(&mut self, in_force: Option<TrackOffsets>) {
         self.requested = None;
         while self.earlier.last().is_some_and(|last| Some(*last) == in_force) {
             self.earlier.pop();
@@ -154,7 +154,7 @@ impl Shifting {
         if let Step::Marking { .. } = self.step {
             self.step = Step::None;
         }
-        self.forget_wanted(in_force);
+        self.forget_request(in_force);
     }
 
     /// Ends a change after the loss of the link. Returns `false` without a current change.
@@ -196,7 +196,7 @@ impl Shifting {
     }
 
     /// Marks the offsets as unknown until a reading later than `read_at`.
-    pub(super) fn unread(&mut self, read_at: Option<Timestamp>) {
+    pub(super) fn mark_unread(&mut self, read_at: Option<Timestamp>) {
         self.unread_since = read_at;
     }
 

@@ -96,7 +96,7 @@ fn holds(shown: &Snapshot, azimuth_deg: f64) -> bool {
 }
 
 /// Sends a payload as another client.
-async fn by_another(control: &Control, payload: &str) {
+async fn send_foreign(control: &Control, payload: &str) {
     let (mut near, far) = tokio::io::duplex(4096);
     let serve = control.clone();
     tokio::spawn(async move { serve.serve(far).await });
@@ -122,7 +122,7 @@ async fn tracking(control: &Control, now: Timestamp, folder: &Path) -> AntennaHa
 }
 
 /// Makes the unit track the pass with 0.2 degrees added, and ends the program.
-async fn left_in_a_pass(folder: &Path) -> (Control, Timestamp) {
+async fn leave_in_pass(folder: &Path) -> (Control, Timestamp) {
     let (control, now) = unit(30.0);
     let handle = tracking(&control, now, folder).await;
     let step = Offset::Azimuth(Angle::from_degrees(0.2));
@@ -142,7 +142,7 @@ async fn left_in_a_pass(folder: &Path) -> (Control, Timestamp) {
 }
 
 /// Waits for the removal of the record.
-async fn forgotten(folder: &Path) {
+async fn wait_removed(folder: &Path) {
     for _ in 0..300 {
         if mark(folder).is_none() {
             return;
@@ -160,33 +160,33 @@ fn is_found(shown: &Snapshot) -> bool {
 #[tokio::test(start_paused = true)]
 async fn what_an_earlier_run_left_is_taken_back_once_the_unit_does_not_track() {
     let folder = tempfile::tempdir().unwrap();
-    let (control, now) = left_in_a_pass(folder.path()).await;
-    by_another(&control, "TRACK=,0").await;
+    let (control, now) = leave_in_pass(folder.path()).await;
+    send_foreign(&control, "TRACK=,0").await;
     let handle = run(&control, now, folder.path());
     wait(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
     assert_eq!(sent(&control).len(), 2, "one to add them, one to take them back");
-    forgotten(folder.path()).await;
+    wait_removed(folder.path()).await;
 }
 
 #[tokio::test(start_paused = true)]
 async fn in_the_pass_that_goes_on_what_an_earlier_run_left_waits_for_its_end() {
     let folder = tempfile::tempdir().unwrap();
-    let (control, now) = left_in_a_pass(folder.path()).await;
+    let (control, now) = leave_in_pass(folder.path()).await;
     let handle = run(&control, now, folder.path());
     wait(&handle, "told", is_found).await;
     sleep(Duration::from_mins(2)).await;
     assert!(is_found(&handle.snapshot()) && control.state().is_tracking);
     assert_eq!(sent(&control).len(), 1, "it would move the antenna");
-    by_another(&control, "TRACK=,0").await;
+    send_foreign(&control, "TRACK=,0").await;
     wait(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
-    forgotten(folder.path()).await;
+    wait_removed(folder.path()).await;
 }
 
 #[tokio::test(start_paused = true)]
 async fn what_an_earlier_run_left_waits_while_the_unit_is_locked_out() {
     let folder = tempfile::tempdir().unwrap();
-    let (control, now) = left_in_a_pass(folder.path()).await;
-    by_another(&control, "TRACK=,0").await;
+    let (control, now) = leave_in_pass(folder.path()).await;
+    send_foreign(&control, "TRACK=,0").await;
     let handle = run(&control, now, folder.path());
     let (operator, reason) = ("Ada".to_owned(), "belts".to_owned());
     handle
@@ -202,8 +202,8 @@ async fn what_an_earlier_run_left_waits_while_the_unit_is_locked_out() {
 #[tokio::test(start_paused = true)]
 async fn a_unit_that_refuses_is_asked_again_by_the_next_start_too() {
     let folder = tempfile::tempdir().unwrap();
-    let (control, now) = left_in_a_pass(folder.path()).await;
-    by_another(&control, "TRACK=,0").await;
+    let (control, now) = leave_in_pass(folder.path()).await;
+    send_foreign(&control, "TRACK=,0").await;
     control.set_fault(Fault::RefuseSettings, true);
     let handle = run(&control, now, folder.path());
     wait(&handle, "told", |shown| {
@@ -217,7 +217,7 @@ async fn a_unit_that_refuses_is_asked_again_by_the_next_start_too() {
     control.set_fault(Fault::RefuseSettings, false);
     let handle = run(&control, add_seconds(now, 60.0), folder.path());
     wait(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
-    forgotten(folder.path()).await;
+    wait_removed(folder.path()).await;
 }
 
 #[tokio::test(start_paused = true)]
@@ -254,7 +254,7 @@ async fn a_unit_that_applies_settings_late_is_watched_until_both_are_restored() 
         holds(shown, 0.0) && offsets.is_some_and(|unit| unit.elevation_deg.abs() < 1e-9)
     };
     wait(&handle, "both are restored", restored).await;
-    forgotten(folder.path()).await;
+    wait_removed(folder.path()).await;
 }
 
 #[tokio::test(start_paused = true)]
@@ -278,15 +278,15 @@ async fn an_offset_that_the_unit_applies_after_the_track_is_taken_back_too() {
         sleep(Duration::from_secs(40)).await;
     }
     assert!(elevation(&handle.snapshot(), 0.0), "{:?}", handle.snapshot().state.on_board.offsets);
-    forgotten(folder.path()).await;
+    wait_removed(folder.path()).await;
 }
 
 /// At any kill time of the program, the unit ends without the offset.
 #[tokio::test(start_paused = true)]
 async fn killed_at_any_step_of_an_offset_the_next_start_leaves_none_on_the_unit() {
     let folder = tempfile::tempdir().unwrap();
-    let (control, now) = left_in_a_pass(folder.path()).await;
-    by_another(&control, "TRACK=,0").await;
+    let (control, now) = leave_in_pass(folder.path()).await;
+    send_foreign(&control, "TRACK=,0").await;
     let copies: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(Result::unwrap).collect();
     let [file] = &copies[..] else { panic!("{copies:?}") };
     let text = std::fs::read(file.path()).unwrap();
@@ -302,10 +302,10 @@ async fn killed_at_any_step_of_an_offset_the_next_start_leaves_none_on_the_unit(
         if is_recorded {
             std::fs::write(killed.path().join(file.file_name()), &text).unwrap();
         }
-        by_another(&control, &format!("SETTINGS=,?,?,{held_deg},?,?,?,?,?,?,?,?")).await;
+        send_foreign(&control, &format!("SETTINGS=,?,?,{held_deg},?,?,?,?,?,?,?,?")).await;
         let handle = run(&control, now, killed.path());
         wait(&handle, step, |shown| holds(shown, 0.0) && shown.unit_offsets.is_none()).await;
-        forgotten(killed.path()).await;
+        wait_removed(killed.path()).await;
         drop(handle);
         sleep(Duration::from_secs(5)).await;
     }
@@ -341,7 +341,7 @@ async fn what_the_unit_makes_of_an_offset_is_known_and_taken_back() {
         sleep(Duration::from_millis(1)).await;
     }
     // Simulate a unit that stores other values than it receives.
-    by_another(&control, "SETTINGS=,?,?,0.25,?,?,?,?,?,?,?,?").await;
+    send_foreign(&control, "SETTINGS=,?,?,0.25,?,?,?,?,?,?,?,?").await;
     wait(&handle, "known", |shown| {
         let unit = shown.unit_offsets.as_ref();
         unit.is_some_and(|unit| unit.offsets == azimuth(0.25) && !unit.is_changing)
@@ -359,14 +359,14 @@ async fn what_the_unit_makes_of_an_offset_is_known_and_taken_back() {
 #[tokio::test(start_paused = true)]
 async fn in_the_pass_that_goes_on_they_are_found_too() {
     let folder = tempfile::tempdir().unwrap();
-    let (control, now) = left_in_a_pass(folder.path()).await;
+    let (control, now) = leave_in_pass(folder.path()).await;
     let handle = run(&control, now, folder.path());
     wait(&handle, "told", |shown| {
         shown.unit_offsets.as_ref().is_some_and(|unit| unit.left.is_some())
     })
     .await;
-    let until_watched = |shown: &Snapshot| shown.on_board.is_some();
-    wait(&handle, "watched", until_watched).await;
+    let is_watched = |shown: &Snapshot| shown.on_board.is_some();
+    wait(&handle, "watched", is_watched).await;
     let step = Offset::Azimuth(Angle::from_degrees(0.1));
     handle.send(Command::Offset(OffsetChange::Step(step))).unwrap();
     wait(&handle, "taken up", |shown| {
@@ -382,14 +382,14 @@ async fn in_the_pass_that_goes_on_they_are_found_too() {
 async fn what_the_unit_does_not_hold_any_more_is_not_offered() {
     for azimuth_deg in [0.0, 0.5] {
         let folder = tempfile::tempdir().unwrap();
-        let (control, now) = left_in_a_pass(folder.path()).await;
-        by_another(&control, "TRACK=,0").await;
-        by_another(&control, &format!("SETTINGS=,?,?,{azimuth_deg},?,?,?,?,?,?,?,?")).await;
+        let (control, now) = leave_in_pass(folder.path()).await;
+        send_foreign(&control, "TRACK=,0").await;
+        send_foreign(&control, &format!("SETTINGS=,?,?,{azimuth_deg},?,?,?,?,?,?,?,?")).await;
         let handle = run(&control, now, folder.path());
         wait(&handle, "read", |shown| holds(shown, azimuth_deg)).await;
         sleep(Duration::from_secs(1)).await;
         assert_eq!(handle.snapshot().unit_offsets, None, "{azimuth_deg}");
-        forgotten(folder.path()).await;
+        wait_removed(folder.path()).await;
     }
 }
 

@@ -159,7 +159,7 @@ pub(super) async fn let_sleep(checks: Checks) -> bool {
     scene.send(Command::Manual);
     scene.send(Command::Jog { rates_deg_s: [1.0, 0.0] });
     scene.seconds(0.1).await;
-    timeout(Duration::from_millis(2900), scene.sleeps.all_quiet()).await.is_ok()
+    timeout(Duration::from_millis(2900), scene.sleeps.wait_until_quiet()).await.is_ok()
 }
 
 /// Checks the alarm when somebody turns the antenna while its drives stand.

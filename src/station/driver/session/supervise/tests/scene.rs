@@ -128,7 +128,7 @@ impl<U: Unit> Scene<U> {
         let steady = clock.now().steady;
         let (wires, handle) =
             Wires::new(&antenna, bounds, steady, Arc::new(|| {}), &Orders::default());
-        let wires = wires.hearing(sleeps.hear());
+        let wires = wires.with_sleep(sleeps.subscribe());
         let controller = antenna.controller();
         let session =
             Session::with_wires(controller, &antenna, dial, clock, wires, Debts::default());
@@ -168,11 +168,15 @@ impl<U: Unit> Scene<U> {
     }
 
     /// Returns `true` once a matching event arrives within `within_s` seconds.
-    pub(super) async fn tells(&mut self, within_s: f64, is_it: impl Fn(&Event) -> bool) -> bool {
+    pub(super) async fn tells(
+        &mut self,
+        within_s: f64,
+        is_expected: impl Fn(&Event) -> bool,
+    ) -> bool {
         let end = tokio::time::Instant::now() + Duration::try_from_secs_f64(within_s).unwrap();
         loop {
             while let Some(event) = self.handle.next_event() {
-                if is_it(&event) {
+                if is_expected(&event) {
                     return true;
                 }
             }
