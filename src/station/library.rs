@@ -38,10 +38,10 @@ pub use self::{
 };
 use self::{
     fetch::{ServerAnswer, agent, fetch, host},
-    index::{Index, Record},
+    index::{AddressRecord, Index},
     lock::Lock,
     space_track::{Step, Visit},
-    unfinished::{Reading, SetAside},
+    unfinished::{ReadingNote, SetAside},
 };
 use crate::{
     contract::sources::SPACE_TRACK_HOST,
@@ -142,7 +142,7 @@ impl Library {
     /// [`Self::read_again`] names it.
     pub fn load_into(&self, sources: &[Source], catalog: &mut Catalog) -> Vec<SourceReport> {
         let mut set_aside = SetAside::load(&self.folder);
-        let mut reading = Reading::begin(&self.folder, &mut set_aside);
+        let mut reading = ReadingNote::begin(&self.folder, &mut set_aside);
         let report = |source: &Source| {
             let mut epochs = Epochs::new();
             if set_aside.contains(source) {
@@ -315,7 +315,7 @@ impl Library {
     /// operator too. Only the operator may repeat a refused log-in.
     fn may_ask(&self, source: &Source, key: &str, now: Timestamp, forced: bool) -> bool {
         let record = self.index.get(key);
-        let last = record.and_then(Record::asked_at);
+        let last = record.and_then(AddressRecord::asked_at);
         let is_allowed = match source.place {
             SourcePlace::SpaceTrack(_) => {
                 let is_early = self.not_before(source, now) > Some(now);
@@ -400,7 +400,7 @@ impl Library {
                 whole_file::replace_and_keep_old(&path, &body)
                     .map_err(|error| FetchProblem::Disk(error.to_string()))?;
                 *self.index.entry(url, name, now) =
-                    Record { etag, last_modified, confirmed_at: Some(now), ..record };
+                    AddressRecord { etag, last_modified, confirmed_at: Some(now), ..record };
                 Ok(true)
             }
         }

@@ -62,7 +62,7 @@ impl Mark {
 
 /// Content of a debt file.
 #[derive(Debug, Serialize, Deserialize)]
-struct Record<T> {
+struct DebtRecord<T> {
     #[serde(flatten)]
     unit: Unit,
     #[serde(flatten)]
@@ -333,7 +333,7 @@ impl Debts {
 }
 
 fn file<T: Serialize>(unit: &Unit, debt: T) -> Result<FileState, String> {
-    let record = Record { unit: unit.clone(), debt };
+    let record = DebtRecord { unit: unit.clone(), debt };
     toml::to_string(&record).map(FileState::Holds).map_err(|error| error.to_string())
 }
 
@@ -343,7 +343,7 @@ fn found<T: DeserializeOwned>(folder: &Path, ending: &str, meaning: &str) -> Vec
     let read = |path: PathBuf| {
         let text = fs::read_to_string(&path).map_err(io::Error::other);
         let record = text.and_then(|text| toml::from_str(&text).map_err(io::Error::other));
-        let Record { unit, debt } = record
+        let DebtRecord { unit, debt } = record
             .inspect_err(|error| tracing::error!(%error, path = %path.display(), "{meaning}"))
             .ok()?;
         Some((unit, debt))

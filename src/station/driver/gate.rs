@@ -41,7 +41,7 @@ pub(super) use judged::PathQuestion;
 pub(super) use offsets::Demand;
 use permissions::Permissions;
 pub(super) use program::NextPass;
-use rules::{Check, RULES, Rule};
+use rules::{RULES, Rule, RuleCheck};
 pub(super) use settings::Shift;
 pub(super) use way::Route;
 
@@ -325,14 +325,14 @@ impl Gate {
 
     fn examine(&self, request: MotionRequest, situation: &Situation<'_>) -> Result<(), Refusal> {
         self.ask_rules(|check| match (check, &request) {
-            (Check::Moving(check), request) => check(request, situation),
-            (Check::Motion(check), MotionRequest::Motion(motion)) => check(motion, situation),
+            (RuleCheck::Moving(check), request) => check(request, situation),
+            (RuleCheck::Motion(check), MotionRequest::Motion(motion)) => check(motion, situation),
             _ => Ok(()),
         })
     }
 
     /// Returns the first refusal of a rule.
-    fn ask_rules(&self, ask: impl Fn(Check) -> Result<(), Refusal>) -> Result<(), Refusal> {
+    fn ask_rules(&self, ask: impl Fn(RuleCheck) -> Result<(), Refusal>) -> Result<(), Refusal> {
         self.rules.iter().try_for_each(|rule| {
             ask(rule.check).inspect_err(|refusal| {
                 tracing::debug!(rule = rule.name, ?refusal, "refused");
@@ -376,7 +376,7 @@ impl Gate {
         let action = self.variant.action(act.action).ok_or(Refusal::NotOffered)?;
         let situation = Situation { is_agreed, ..self.situation(intent, stopping, now) };
         self.ask_rules(|check| match check {
-            Check::Act(check) => check(&act, &situation),
+            RuleCheck::Act(check) => check(&act, &situation),
             _ => Ok(()),
         })?;
         if action.moves {
@@ -385,7 +385,7 @@ impl Gate {
                 &self.situation(intent, stopping, now),
             )?;
             self.ask_rules(|check| match check {
-                Check::MovingAct(check) => check(&act, &situation),
+                RuleCheck::MovingAct(check) => check(&act, &situation),
                 _ => Ok(()),
             })?;
             self.to_deg = self.action_end(&act);

@@ -70,7 +70,7 @@ use crate::{
     station::Antenna,
 };
 use commanded::Commanded;
-use contact::{Contact, Pace};
+use contact::{Contact, PollPace};
 use guard::Guard;
 pub(super) use io_loop::{CONNECT, MIN_WAIT, WRITE, error_text};
 pub use jog::LEASE as JOG_LEASE;
@@ -177,7 +177,7 @@ impl Session {
             being_compared: self.recheck().is_some(),
             aim: self.commanded.activity.aim(),
             target: self.commanded.activity.on_board().map(|track| track.target.clone()),
-            on_board: self.on_board_watch().map(on_board::Watch::view),
+            on_board: self.on_board_watch().map(on_board::OnBoardWatch::view),
             program_track: self.commanded.activity.last_program().map(Tracking::view),
             unit_offsets: self.unit_offsets_view(),
             rates_deg_s: Some(self.setup.track_config().rates_deg_s()),
@@ -227,9 +227,9 @@ impl Session {
         self.setup.alarm_figures(self.gate.measured_sway_deg())
     }
 
-    fn pace(&mut self) -> Pace {
+    fn pace(&mut self) -> PollPace {
         let device = self.gate.device();
-        Pace { poll_period: device.poll_period(), patience: device.patience() }
+        PollPace { poll_period: device.poll_period(), patience: device.patience() }
     }
 
     fn now(&self) -> Moment {

@@ -10,14 +10,14 @@ use std::{
 use jiff::Timestamp;
 
 /// Content of a file.
-pub(super) struct File {
+pub(super) struct DiskFile {
     pub(super) bytes: Vec<u8>,
     /// Time of the last change, if the file system reports it.
     pub(super) modified: Option<Timestamp>,
 }
 
 /// Reads the file at `path`, at most `limit` bytes. Refuses folders, devices and pipes.
-pub(super) fn read(path: &Path, limit: u64) -> io::Result<File> {
+pub(super) fn read(path: &Path, limit: u64) -> io::Result<DiskFile> {
     // Check the type before opening: a pipe without a writer would block.
     if !fs::metadata(path)?.is_file() {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "not a regular file"));
@@ -25,7 +25,7 @@ pub(super) fn read(path: &Path, limit: u64) -> io::Result<File> {
     let file = fs::File::open(path)?;
     let modified = file.metadata()?.modified().ok();
     let modified = modified.and_then(|modified| Timestamp::try_from(modified).ok());
-    Ok(File { bytes: read_limited(file, limit)?, modified })
+    Ok(DiskFile { bytes: read_limited(file, limit)?, modified })
 }
 
 /// Reads to the end. Returns an error of kind `FileTooLarge` beyond `limit` bytes.

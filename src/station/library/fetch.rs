@@ -9,7 +9,7 @@ use ureq::{
     tls::{RootCerts, TlsConfig},
 };
 
-use super::{disk::read_limited, index::Record};
+use super::{disk::read_limited, index::AddressRecord};
 use crate::{contract::sources::check_address, orbit::FetchProblem};
 
 /// Limits for requests and files.
@@ -46,7 +46,7 @@ pub(super) fn host(url: &str) -> String {
 /// must check an address that has moved.
 pub(super) fn fetch(
     url: &str,
-    record: Option<&Record>,
+    record: Option<&AddressRecord>,
     limits: Limits,
     authorities: &RootCerts,
 ) -> Result<ServerAnswer, FetchProblem> {

@@ -23,12 +23,12 @@ pub(super) struct Index {
     version: u32,
     /// Records by address: a source with a new address shares nothing with its old address.
     #[serde(default)]
-    address: BTreeMap<String, Record>,
+    address: BTreeMap<String, AddressRecord>,
 }
 
 /// Record of one address.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Record {
+pub(super) struct AddressRecord {
     /// File in the library with the last answer.
     pub(super) file: String,
     /// Time of the last request.
@@ -68,7 +68,7 @@ pub enum IndexError {
     Newer { found: u32, path: PathBuf },
 }
 
-impl Record {
+impl AddressRecord {
     /// Returns the time of the last attempt, if it reached a server.
     pub(super) fn asked_at(&self) -> Option<Timestamp> {
         let is_unasked = self.problem.as_ref().is_some_and(FetchProblem::is_before_request);
@@ -131,15 +131,15 @@ impl Index {
         Ok(())
     }
 
-    pub(super) fn get(&self, url: &str) -> Option<&Record> {
+    pub(super) fn get(&self, url: &str) -> Option<&AddressRecord> {
         self.address.get(url)
     }
 
     /// Returns the record of `url`. If there is none, adds one for a request at `now` for the
     /// source `name`.
-    pub(super) fn entry(&mut self, url: &str, name: &str, now: Timestamp) -> &mut Record {
+    pub(super) fn entry(&mut self, url: &str, name: &str, now: Timestamp) -> &mut AddressRecord {
         let file = self.unused_file(name);
-        self.address.entry(url.to_owned()).or_insert(Record {
+        self.address.entry(url.to_owned()).or_insert(AddressRecord {
             file,
             attempted_at: now,
             queried_at: None,

@@ -31,7 +31,7 @@ pub enum SourcesError {
 }
 
 #[derive(Serialize, Deserialize)]
-struct File {
+struct ListFile {
     #[serde(default = "this_version")]
     version: u32,
     #[serde(default)]
@@ -60,13 +60,13 @@ pub fn load_sources(path: &Path) -> Result<Vec<Source>, SourcesError> {
     if found > VERSION {
         return Err(SourcesError::Newer { found, path: path.to_owned() });
     }
-    let file: File = table.try_into().map_err(syntax)?;
+    let file: ListFile = table.try_into().map_err(syntax)?;
     Ok(file.source)
 }
 
 /// Replaces the list at `path`, and keeps the previous file beside it with the ending `.old`.
 pub fn save_sources(sources: &[Source], path: &Path) -> Result<(), SourcesError> {
-    let file = File { version: VERSION, source: sources.to_vec() };
+    let file = ListFile { version: VERSION, source: sources.to_vec() };
     let text = toml::to_string_pretty(&file)?;
     whole_file::replace_and_keep_old(path, text.as_bytes())
         .map_err(|source| SourcesError::Disk { source, path: path.to_owned() })

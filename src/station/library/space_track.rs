@@ -16,7 +16,7 @@ use ureq::{
 use super::{
     disk::read_limited,
     fetch::{Limits, body_of, unanswered},
-    index::Record,
+    index::AddressRecord,
 };
 use crate::{
     contract::sources::{SPACE_TRACK_HOST, log_in_key},
@@ -97,7 +97,7 @@ pub(super) fn key(user: &str) -> String {
 }
 
 /// Returns the limits that the requests of `record` started.
-pub(super) fn limits(record: &Record) -> Vec<RequestLimit> {
+pub(super) fn limits(record: &AddressRecord) -> Vec<RequestLimit> {
     let log_in = record.asked_at().map(|time| RequestLimit { time, pause: LOG_IN_PAUSE });
     let query = record.queried_at.map(|time| RequestLimit { time, pause: QUERY_PAUSE });
     log_in.into_iter().chain(query).collect()

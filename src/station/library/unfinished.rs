@@ -24,11 +24,11 @@ const READING: &str = "reading.toml";
 #[derive(Debug)]
 pub(super) struct SetAside {
     path: PathBuf,
-    list: List,
+    list: UnfinishedList,
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-struct List {
+struct UnfinishedList {
     #[serde(default)]
     source: Vec<Source>,
 }
@@ -76,12 +76,12 @@ impl SetAside {
 /// Note of the source that this program is reading. It stays unused while another program reads; a
 /// source that ends this program then goes unnoticed, which is rare.
 #[derive(Debug)]
-pub(super) struct Reading {
+pub(super) struct ReadingNote {
     path: PathBuf,
     lock: Option<Lock>,
 }
 
-impl Reading {
+impl ReadingNote {
     /// Begins to read in `folder`. Adds a source that an earlier program did not finish to
     /// `set_aside`.
     pub(super) fn begin(folder: &Path, set_aside: &mut SetAside) -> Self {
@@ -146,9 +146,9 @@ mod tests {
 
     use super::*;
 
-    fn begin(folder: &Path) -> (SetAside, Reading) {
+    fn begin(folder: &Path) -> (SetAside, ReadingNote) {
         let mut set_aside = SetAside::load(folder);
-        let reading = Reading::begin(folder, &mut set_aside);
+        let reading = ReadingNote::begin(folder, &mut set_aside);
         (set_aside, reading)
     }
 

@@ -7,7 +7,7 @@ use rusqlite::{OptionalExtension as _, named_params};
 
 use super::{
     RecordError, file,
-    past::{COLUMNS, LONGEST, Passes, path_of, read_pass, read_passes},
+    past::{COLUMNS, LONGEST, PastPasses, path_of, read_pass, read_passes},
 };
 use crate::{
     astro::Site,
@@ -49,7 +49,7 @@ pub fn times_between(
 
 /// Returns the times of the pass with this number.
 pub fn times_of_pass(path: &Path, id: i64, site: Site) -> Result<Option<PassTimes>, RecordError> {
-    let passes = Passes::open(path, site)?;
+    let passes = PastPasses::open(path, site)?;
     Ok(passes.pass(id)?.map(|pass| times_of(&pass, site)))
 }
 

@@ -4,7 +4,7 @@ use std::{ops::RangeInclusive, path::Path};
 
 use jiff::Timestamp;
 
-use super::{RecordError, past::Passes};
+use super::{RecordError, past::PastPasses};
 use crate::{
     astro::{Angle, Site, time::apart},
     contract::record::{ExplainedPasses, RecordedPass, RecordedReport},
@@ -31,7 +31,7 @@ pub fn explain_passes(
     if !path.exists() {
         return Ok(ExplainedPasses { passes: 0, start: None, explanations: Vec::new() });
     }
-    let record = Passes::open(path, site)?;
+    let record = PastPasses::open(path, site)?;
     let mut flown: Vec<(Propagator, Site, PathSource, Vec<MeasuredPosition>)> = Vec::new();
     let mut begin = None;
     let mut half_beam_deg = 0.0_f64;

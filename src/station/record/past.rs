@@ -62,14 +62,14 @@ pub fn passes_within(
     span: &Range<Timestamp>,
     site: Site,
 ) -> Result<Vec<OpenedPass>, RecordError> {
-    let passes = Passes::open(path, site)?;
+    let passes = PastPasses::open(path, site)?;
     passes.in_span(query, span)?.into_iter().map(|pass| passes.opened(pass)).collect()
 }
 
 /// Returns the pass with this number in the record at `path`. Reports without a site belong to an
 /// antenna at `site`.
 pub fn open_pass(path: &Path, id: i64, site: Site) -> Result<Option<OpenedPass>, RecordError> {
-    let passes = Passes::open(path, site)?;
+    let passes = PastPasses::open(path, site)?;
     passes.pass(id)?.map(|pass| passes.opened(pass)).transpose()
 }
 
@@ -107,7 +107,7 @@ pub(super) fn path_of(propagator: &Propagator, site: Site, report: &RecordedRepo
 }
 
 /// Passes of an open record.
-pub(super) struct Passes {
+pub(super) struct PastPasses {
     db: Connection,
     /// Site of the antennas in reports without a site.
     site: Site,
@@ -123,7 +123,7 @@ const MATCHES: &str = "(:antenna IS NULL OR antenna = :antenna) \
     AND (instr(lower(name), lower(:text)) > 0 OR CAST(satellite AS TEXT) = :text \
          OR instr(strftime('%Y-%m-%d', from_us / 1000000, 'unixepoch'), :text) = 1)";
 
-impl Passes {
+impl PastPasses {
     pub(super) fn open(path: &Path, site: Site) -> Result<Self, RecordError> {
         Ok(Self { db: file::open_to_read(path)?, site })
     }

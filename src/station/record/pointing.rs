@@ -4,7 +4,7 @@ use std::{ops::RangeInclusive, path::Path};
 
 use jiff::Timestamp;
 
-use super::{RecordError, past::Passes};
+use super::{RecordError, past::PastPasses};
 use crate::{
     astro::{PointingModel, Site, Term, time::apart},
     contract::record::{FittedNoise, FittedTerm, Peak, PointingFit},
@@ -44,7 +44,7 @@ pub fn fit_pointing(
     let peaks: Vec<Point> = peaks.iter().map(|peak| peak.point(site)).collect();
     let mut runs: Vec<Vec<Point>> = Vec::new();
     if path.exists() {
-        let record = Passes::open(path, site)?;
+        let record = PastPasses::open(path, site)?;
         for pass in record.newest(antenna, span, u32::MAX)? {
             let run = thinned(&record.led_track(&pass)?, &pass.report.track.pointing_model);
             if !run.is_empty() {

@@ -72,7 +72,7 @@ const OR_OF_SEVERAL: &str = "OR antenna IS NULL AND CASE kind WHEN 'gap' THEN 1 
 /// Position of a reader in the record. Each antenna has its own position, because one antenna may
 /// report an older measurement later than another.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-struct Place {
+struct ReaderPosition {
     event: i64,
     pass: i64,
     /// Time of the latest position of each antenna, microseconds.
@@ -84,13 +84,13 @@ struct Place {
 /// Record that is open for reading.
 pub struct Record {
     db: Connection,
-    read_to: Place,
+    read_to: ReaderPosition,
 }
 
 impl Record {
     /// Opens the record at `path`.
     pub fn open(path: &Path) -> Result<Self, RecordError> {
-        Ok(Self { db: file::open_to_read(path)?, read_to: Place::default() })
+        Ok(Self { db: file::open_to_read(path)?, read_to: ReaderPosition::default() })
     }
 
     /// Passes unread rows that match `query` to `take`, in order of time, until `take` returns
@@ -111,7 +111,7 @@ impl Record {
     }
 
     /// Returns the end of the data in the record.
-    fn place(&self) -> Result<Place, RecordError> {
+    fn place(&self) -> Result<ReaderPosition, RecordError> {
         let newest = |table: &str| {
             let sql = format!("SELECT max(id) FROM {table}");
             self.db.query_row(&sql, [], |row| row.get::<_, Option<i64>>(0))
@@ -125,7 +125,7 @@ impl Record {
             let rows: Vec<(i64, Option<i64>)> = rows.collect::<Result<_, _>>()?;
             Ok(rows.into_iter().filter_map(|(antenna, utc_us)| Some((antenna, utc_us?))).collect())
         };
-        Ok(Place {
+        Ok(ReaderPosition {
             event: newest("event")?.unwrap_or_default(),
             pass: newest("pass")?.unwrap_or_default(),
             position_us: latest("position")?,
@@ -137,7 +137,7 @@ impl Record {
 /// Returns the entries that match `query`, in order of time.
 pub(super) fn entries(db: &Connection, query: &Query) -> Result<Vec<Row>, RecordError> {
     let mut found = Vec::new();
-    let all = Place::default();
+    let all = ReaderPosition::default();
     rows(db, query, (&all, &all), &mut |row| {
         found.push(row);
         true
@@ -149,7 +149,7 @@ pub(super) fn entries(db: &Connection, query: &Query) -> Result<Vec<Row>, Record
 fn rows(
     db: &Connection,
     query: &Query,
-    (before, now): (&Place, &Place),
+    (before, now): (&ReaderPosition, &ReaderPosition),
     take: &mut dyn FnMut(Row) -> bool,
 ) -> Result<(), RecordError> {
     let from_us = query.start.map_or(EARLIEST_US, Timestamp::as_microsecond);

@@ -65,7 +65,7 @@ struct Source {
 }
 
 /// New content of a session, for one write.
-struct News {
+struct SessionNews {
     lines: Vec<Arc<Recorded>>,
     first_position: u64,
     positions: Vec<Measured>,
@@ -225,7 +225,7 @@ impl Writer {
         };
         self.written = file_id(&self.path);
         let (db, run) = self.open.insert(open);
-        let news: Vec<News> = self.sources.iter().map(Source::news).collect();
+        let news: Vec<SessionNews> = self.sources.iter().map(Source::news).collect();
         let turned_away = self.shared.turned_away.load(Ordering::Relaxed);
         let not_filmed = self.shared.not_filmed.load(Ordering::Relaxed);
         let mut missed = Missed {
@@ -381,7 +381,7 @@ impl Source {
         Self { recorded_session: session, is_named: false, next_line: 0, next_position: 0 }
     }
 
-    fn news(&self) -> News {
+    fn news(&self) -> SessionNews {
         // Check before reading the logs; otherwise data logged in between would be lost.
         let is_last = self.recorded_session.wire.is_alone();
         let mut lines = self.recorded_session.wire.copy_from(self.next_line);
@@ -394,7 +394,7 @@ impl Source {
         }
         let (first_position, positions) =
             self.recorded_session.positions.read_from(self.next_position);
-        News { lines, first_position, positions, is_last }
+        SessionNews { lines, first_position, positions, is_last }
     }
 }
 

@@ -23,7 +23,7 @@ const MAX: usize = 20;
 
 /// List on the disk.
 #[derive(Debug, Serialize, Deserialize)]
-struct List {
+struct KeptFileList {
     version: u32,
     /// Kept files, oldest first.
     #[serde(rename = "kept", default)]
@@ -132,7 +132,7 @@ impl KeptFiles {
     }
 
     /// Removes content files that the list no longer names.
-    fn clear(&self, dropped: &[FileHash], list: &List) {
+    fn clear(&self, dropped: &[FileHash], list: &KeptFileList) {
         let needed: BTreeSet<_> =
             list.kept_files.iter().map(|one| one.sha256.to_string()).collect();
         for hash in dropped.iter().filter(|hash| !needed.contains(&hash.to_string())) {
@@ -151,15 +151,15 @@ impl KeptFiles {
         self.folder.join("index.toml")
     }
 
-    fn load(&self) -> Result<List, KeptError> {
+    fn load(&self) -> Result<KeptFileList, KeptError> {
         let path = self.index();
         let text = match fs::read_to_string(&path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                return Ok(List { version: VERSION, kept_files: Vec::new() });
+                return Ok(KeptFileList { version: VERSION, kept_files: Vec::new() });
             }
             other => other.map_err(disk_error(&path))?,
         };
-        let list: List = toml::from_str(&text)
+        let list: KeptFileList = toml::from_str(&text)
             .map_err(|source| KeptError::Syntax { source: source.into(), path: path.clone() })?;
         if list.version > VERSION {
             return Err(KeptError::Newer { found: list.version, path });
@@ -167,7 +167,7 @@ impl KeptFiles {
         Ok(list)
     }
 
-    fn save(&self, list: &List) -> Result<(), KeptError> {
+    fn save(&self, list: &KeptFileList) -> Result<(), KeptError> {
         let path = self.index();
         let text = toml::to_string_pretty(list)?;
         whole_file::replace_and_keep_old(&path, text.as_bytes()).map_err(disk_error(&path))

@@ -220,9 +220,9 @@ mod tests {
     }
 
     /// Keyring that answers once its lock is free.
-    struct Locked(Arc<Mutex<()>>);
+    struct LockedKeyring(Arc<Mutex<()>>);
 
-    impl Keyring for Locked {
+    impl Keyring for LockedKeyring {
         fn get(&self, _: &Account) -> Result<Option<SecretString>, KeyringError> {
             drop(self.0.lock());
             Ok(Some("hunter2".into()))
@@ -242,8 +242,10 @@ mod tests {
     fn a_locked_keyring_blocks_nobody_and_gets_one_thread() {
         let lock = Arc::new(Mutex::new(()));
         let locked = lock.lock().unwrap();
-        let keyring =
-            TimedKeyring::new(Arc::new(Locked(Arc::clone(&lock))), Duration::from_millis(50));
+        let keyring = TimedKeyring::new(
+            Arc::new(LockedKeyring(Arc::clone(&lock))),
+            Duration::from_millis(50),
+        );
         let account = Account { user: "op".to_owned(), address: "server:443".to_owned() };
         for _ in 0..3 {
             let answer = keyring.get(account.clone());

@@ -4,7 +4,7 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{Debts, OFFSETS, Record, file};
+use super::{DebtRecord, Debts, OFFSETS, file};
 use crate::{
     astro::{Angle, Offset, TrackOffsets},
     contract::driver::Unit,
@@ -127,7 +127,7 @@ impl Debts {
         let found =
             match self.promises.read(&path).map(|text| text.map(|text| toml::from_str(&text))) {
                 Ok(None) => None,
-                Ok(Some(Ok(Record { unit, debt }))) => {
+                Ok(Some(Ok(DebtRecord { unit, debt }))) => {
                     Some(ShiftedTrack::mark_found((unit, debt)).1)
                 }
                 // An unreadable file contains no new information.

@@ -16,11 +16,11 @@ use crate::{
 pub(super) struct Rule {
     /// Unique name of the rule.
     pub(super) name: &'static str,
-    pub(super) check: Check,
+    pub(super) check: RuleCheck,
 }
 
 #[derive(Clone, Copy)]
-pub(super) enum Check {
+pub(super) enum RuleCheck {
     /// Rule for any motion, and for any action that moves the antenna.
     Moving(fn(&MotionRequest, &Situation<'_>) -> Result<(), Refusal>),
     Motion(fn(&Motion, &Situation<'_>) -> Result<(), Refusal>),
@@ -35,7 +35,7 @@ pub(super) enum Check {
 /// Builds a list of rules, each with the name of its function.
 macro_rules! rules {
     ($($kind:ident($check:ident),)*) => {
-        &[$(Rule { name: stringify!($check), check: Check::$kind($check) },)*]
+        &[$(Rule { name: stringify!($check), check: RuleCheck::$kind($check) },)*]
     };
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Check, Gate, Situation};
+use super::{Gate, RuleCheck, Situation};
 use crate::{
     clock::Moment,
     contract::driver::{Intent, Refusal},
@@ -36,8 +36,8 @@ impl Gate {
     ) -> Result<(), Refusal> {
         let situation = self.situation(Intent::Track, stopping, now);
         self.ask_rules(|check| match check {
-            Check::Moving(check) => check(&Motion::StartProgram.into(), &situation),
-            Check::AnySetting(check) => check(&situation),
+            RuleCheck::Moving(check) => check(&Motion::StartProgram.into(), &situation),
+            RuleCheck::AnySetting(check) => check(&situation),
             _ => Ok(()),
         })?;
         self.unit_path_is_clear(&shift.judge, &shift.axes, now)?;
@@ -55,7 +55,7 @@ impl Gate {
     ) -> Result<(), Refusal> {
         let situation = self.situation(Intent::Track, stopping, now);
         self.ask_rules(|check| match check {
-            Check::AnySetting(check) => check(&situation),
+            RuleCheck::AnySetting(check) => check(&situation),
             _ => Ok(()),
         })?;
         // STOP voids a change of offsets, even a change that would move nothing.
@@ -82,7 +82,7 @@ impl Gate {
     ) -> Result<(), Refusal> {
         let situation = self.situation(Intent::Standby, stopping, now);
         let allowed = self.ask_rules(|check| match check {
-            Check::AnySetting(check) => check(&situation),
+            RuleCheck::AnySetting(check) => check(&situation),
             _ => Ok(()),
         });
         if let Err(refusal) = allowed {
@@ -95,7 +95,7 @@ impl Gate {
             let situation = self.situation(Intent::Standby, stopping, now);
             let situation = Situation { may_move, ..situation };
             self.rules.iter().find_map(|rule| match rule.check {
-                Check::Setting(check) => check(&situation),
+                RuleCheck::Setting(check) => check(&situation),
                 _ => None,
             })
         };

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::{
     APART, AxisFigures, AxisReading, SWINGS_BACK,
-    lead::{COASTS, Lead, Live},
+    lead::{COASTS, Lead, LiveMotion},
     lessons::{DEAD_TIME, FASTEST_DEG_S, RATE_APART, RunsPast, Spread, max_dead_time, note_start},
     range::Range,
 };
@@ -51,7 +51,7 @@ struct Turned {
 
 /// Readings outside the interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Outside {
+struct Excursion {
     start: Instant,
     /// `true` if the unit has reported a driven axis.
     is_driven: bool,
@@ -61,7 +61,7 @@ struct Outside {
 pub(super) struct AxisWatch {
     figures: AxisFigures,
     estimate: Option<Estimate>,
-    motions: Vec<Live>,
+    motions: Vec<LiveMotion>,
     /// Send time of the last motion. `starts` is `true` if the axis stood before and has not turned
     /// since.
     sent: Option<Instant>,
@@ -79,7 +79,7 @@ pub(super) struct AxisWatch {
     is_told: bool,
     /// `true` if the axis came to rest after the last motion.
     has_settled: bool,
-    outside: Option<Outside>,
+    outside: Option<Excursion>,
     /// Time of the first report in an unbroken series of reports of foreign motion.
     reported_since: Option<Instant>,
     open_until: Option<Instant>,
@@ -155,8 +155,17 @@ impl AxisWatch {
         (self.sent, self.has_settled) = (Some(now), false);
         let expiry = None;
         let passed = [None; 2];
-        let mut motion =
-            Live { number, down_to_deg, up_to_deg, ends, is_jog, either_way, led, passed, expiry };
+        let mut motion = LiveMotion {
+            number,
+            down_to_deg,
+            up_to_deg,
+            ends,
+            is_jog,
+            either_way,
+            led,
+            passed,
+            expiry,
+        };
         motion.look(here, self.figures.arrives_within_deg, now);
         self.motions.push(motion);
         if self.motions.len() > MAX_MOTIONS {
@@ -320,7 +329,7 @@ impl AxisWatch {
         let here = Range::with_error(deg, error_deg);
         let Some(range) = here.overlap(reachable) else {
             let is_driven = drive != Drive::Off || !self.is_settled(requested);
-            let outside = self.outside.get_or_insert(Outside { start: requested, is_driven });
+            let outside = self.outside.get_or_insert(Excursion { start: requested, is_driven });
             outside.is_driven |= is_driven;
             let lasted = requested.saturating_duration_since(outside.start);
             let may_swing_back = !outside.is_driven && lasted < SWINGS_BACK;
@@ -549,8 +558,9 @@ impl AxisWatch {
         let is_unseen = time.saturating_duration_since(start) > UNSEEN;
         let is_settled = self.is_settled(start) && !(is_unseen && self.sent > Some(start));
         for motion in self.motions.iter().filter_map(|motion| motion.state_at(start)) {
-            let Live { mut down_to_deg, mut up_to_deg, passed: [from_above, from_below], .. } =
-                motion;
+            let LiveMotion {
+                mut down_to_deg, mut up_to_deg, passed: [from_above, from_below], ..
+            } = motion;
             let arrives_deg = self.figures.arrives_within_deg;
             let past_deg = arrives_deg + self.max_past_deg(start) + self.error_deg();
             let may_pass = |passed: Option<Instant>| {

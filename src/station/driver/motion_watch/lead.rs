@@ -26,7 +26,7 @@ pub(in crate::driver) enum Lead {
 
 /// Motion that may still turn the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Live {
+pub(super) struct LiveMotion {
     pub(super) number: u64,
     /// Lowest angle, or furthest counter-clockwise, to which the axis turns, degrees; infinite if
     /// it does not turn that way.
@@ -47,7 +47,7 @@ pub(super) struct Live {
     pub(super) expiry: Option<Instant>,
 }
 
-impl Live {
+impl LiveMotion {
     /// Returns the state of the motion at `time`; `None` if the axis has come to rest before.
     pub(super) fn state_at(self, time: Instant) -> Option<Self> {
         let Some(expiry) = self.expiry.filter(|expiry| *expiry < time) else { return Some(self) };

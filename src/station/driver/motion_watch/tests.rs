@@ -4,7 +4,7 @@ mod plant;
 
 use std::time::Duration;
 
-use self::plant::{Kind, Order, Plant, STEP_S};
+use self::plant::{Plant, PlantKind, PlantOrder, STEP_S};
 use super::*;
 use crate::driver::dice::Dice;
 
@@ -17,7 +17,7 @@ fn cases(cases: u64) -> std::ops::Range<u64> {
     first..first + cases
 }
 
-impl Kind {
+impl PlantKind {
     fn figures(self) -> AxisFigures {
         AxisFigures {
             resolution_deg: self.step_deg,
@@ -29,7 +29,7 @@ impl Kind {
 }
 
 /// Axis, with the watch and the session that reads and commands it.
-struct Scene {
+struct Trial {
     plant: Plant,
     watch: MotionWatch,
     dice: Dice,
@@ -49,10 +49,10 @@ struct Scene {
     is_flagged: bool,
 }
 
-impl Scene {
+impl Trial {
     fn new(seed: u64) -> Self {
         let mut dice = Dice::new(seed);
-        let kind = Kind::any(&mut dice);
+        let kind = PlantKind::any(&mut dice);
         let (from_deg, to_deg) = kind.travel_deg;
         let plant = Plant::new(kind, dice.draw(from_deg, to_deg));
         Self {
@@ -87,18 +87,18 @@ impl Scene {
         self.time_at(self.plant.now_s)
     }
 
-    fn send(&mut self, order: Order) {
+    fn send(&mut self, order: PlantOrder) {
         let now = self.now();
         let lead = match order {
-            Order::To(deg) if self.plant.kind.wraps => {
+            PlantOrder::To(deg) if self.plant.kind.wraps => {
                 // The unit counts like the station, so the reading contains the full turns.
                 let reads_deg = self.plant.deg.rem_euclid(360.0);
                 let deg = deg - (self.plant.deg - reads_deg);
                 Some(Lead::EitherWay(deg))
             }
-            Order::To(deg) => Some(Lead::To(deg)),
-            Order::Run(share) => Some(Lead::ToEnd { is_up: share > 0.0 }),
-            Order::Stop => None,
+            PlantOrder::To(deg) => Some(Lead::To(deg)),
+            PlantOrder::Run(share) => Some(Lead::ToEnd { is_up: share > 0.0 }),
+            PlantOrder::Stop => None,
         };
         self.plant.send(order);
         if let Some(lead) = lead {
@@ -177,7 +177,7 @@ impl Scene {
     }
 
     fn stop(&mut self) {
-        self.send(Order::Stop);
+        self.send(PlantOrder::Stop);
         while self.stops {
             self.step();
         }
@@ -190,7 +190,7 @@ impl Scene {
 
     fn any_slew(&mut self) {
         let deg = self.any_deg();
-        self.send(Order::To(deg));
+        self.send(PlantOrder::To(deg));
         self.wait_still();
     }
 
@@ -207,7 +207,7 @@ impl Scene {
                 rate_deg_s = -rate_deg_s;
             }
             target_deg += rate_deg_s;
-            self.send(Order::To(target_deg));
+            self.send(PlantOrder::To(target_deg));
             self.seconds(1.0);
         }
         (target_deg, rate_deg_s)
@@ -220,14 +220,14 @@ impl Scene {
             1 => self.any_slew(),
             2 => {
                 let deg = self.any_deg();
-                self.send(Order::To(deg));
+                self.send(PlantOrder::To(deg));
                 let after_s = self.dice.draw(0.0, 10.0);
                 self.seconds(after_s);
                 self.stop();
             }
             3 => {
                 let share = if self.dice.chance(0.5) { 1.0 } else { -1.0 };
-                self.send(Order::Run(share));
+                self.send(PlantOrder::Run(share));
                 let after_s = self.dice.draw(0.1, 8.0);
                 self.seconds(after_s);
                 self.stop();
@@ -239,16 +239,16 @@ impl Scene {
             5 => {
                 // Send a new target before the axis arrives.
                 let (deg, other_deg) = (self.any_deg(), self.any_deg());
-                self.send(Order::To(deg));
+                self.send(PlantOrder::To(deg));
                 let after_s = self.dice.draw(0.0, 10.0);
                 self.seconds(after_s);
-                self.send(Order::To(other_deg));
+                self.send(PlantOrder::To(other_deg));
                 self.wait_still();
             }
             _ => {
                 if self.dice.chance(0.5) {
                     let deg = self.any_deg();
-                    self.send(Order::To(deg));
+                    self.send(PlantOrder::To(deg));
                 }
                 self.away_until_s = self.plant.now_s + self.dice.draw(1.0, 30.0);
                 self.seconds(31.0);
@@ -261,7 +261,7 @@ impl Scene {
 fn an_axis_that_only_its_commands_move_is_nobody_elses() {
     let mut failed = Vec::new();
     for seed in cases(24) {
-        let mut scene = Scene::new(seed);
+        let mut scene = Trial::new(seed);
         while scene.plant.now_s < 3600.0 && scene.found.is_empty() {
             scene.any_deed();
         }
@@ -283,8 +283,8 @@ struct Push {
 }
 
 impl Push {
-    fn any(scene: &mut Scene, way: f64) -> Self {
-        let Kind { step_deg, noise_deg, sway_deg, .. } = scene.plant.kind;
+    fn any(scene: &mut Trial, way: f64) -> Self {
+        let PlantKind { step_deg, noise_deg, sway_deg, .. } = scene.plant.kind;
         let min_deg = 2.5 * step_deg + 2.0 * noise_deg + sway_deg;
         let by_deg = (min_deg + scene.dice.draw(0.0, 30.0)) * way;
         Self { by_deg, rate_deg_s: scene.dice.draw(2.0, 20.0), holds_s: scene.dice.draw(3.0, 20.0) }
@@ -293,10 +293,10 @@ impl Push {
     /// Applies the push. Returns the time until the watch finds it, seconds.
     fn happens(
         self,
-        scene: &mut Scene,
+        scene: &mut Trial,
         from_deg: f64,
         within_s: f64,
-        mut each_s: impl FnMut(&mut Scene),
+        mut each_s: impl FnMut(&mut Trial),
     ) -> Option<f64> {
         scene.found.clear();
         let began_s = scene.plant.now_s;
@@ -324,7 +324,7 @@ impl Push {
 fn one_that_is_pushed_at_rest_is_found_within_ten_seconds() {
     let (mut pushes, mut missed) = (0, Vec::new());
     for seed in cases(60) {
-        let mut scene = Scene::new(seed);
+        let mut scene = Trial::new(seed);
         for _ in 0..8 {
             scene.any_slew();
             scene.seconds(20.0);
@@ -349,7 +349,7 @@ fn one_that_is_pushed_at_rest_is_found_within_ten_seconds() {
 /// Returns the seeds of pushes by more than `beyond_deg` that the watch misses in a track.
 fn missed_pushes(seeds: std::ops::Range<u64>, beyond_deg: f64) -> Vec<u64> {
     let is_missed = |seed: &u64| {
-        let mut scene = Scene::new(*seed);
+        let mut scene = Trial::new(*seed);
         scene.plant.kind.follows_well();
         // Let the watch learn for several days.
         for _ in 0..8 {
@@ -372,7 +372,7 @@ fn missed_pushes(seeds: std::ops::Range<u64>, beyond_deg: f64) -> Vec<u64> {
         let from_deg = scene.plant.deg;
         let found = push.happens(&mut scene, from_deg, 15.0, |scene| {
             target_deg += rate_deg_s;
-            scene.send(Order::To(target_deg));
+            scene.send(PlantOrder::To(target_deg));
         });
         found.is_none()
     };

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::{on_board::Watch, tracking::Tracking};
+use super::{on_board::OnBoardWatch, tracking::Tracking};
 use crate::{
     astro::Angle,
     clock::Instant,
@@ -58,7 +58,7 @@ pub(super) struct Leg {
 
 pub(super) struct OnBoardTrack {
     pub(super) target: TrackTarget,
-    pub(super) watch: Watch,
+    pub(super) watch: OnBoardWatch,
     pub(super) stage: OnBoardStage,
 }
 

@@ -19,7 +19,7 @@ const NOISE_DEG: f64 = 0.02;
 
 /// Certainty that the antenna is inside a barrier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Certainty {
+enum InsideCertainty {
     /// Certainty from two known angles.
     Known,
     /// Position inside at every possible angle.
@@ -60,9 +60,9 @@ impl Session {
             };
             let goes_deeper = is_moving && deeper_deg > NOISE_DEG;
             let certainty = match &surely {
-                None => Certainty::Known,
-                Some(surely) if surely.get(index) == Some(&true) => Certainty::Inside,
-                Some(_) => Certainty::Unknown,
+                None => InsideCertainty::Known,
+                Some(surely) if surely.get(index) == Some(&true) => InsideCertainty::Inside,
+                Some(_) => InsideCertainty::Unknown,
             };
             self.judge(here, &next, certainty, is_moving, goes_deeper, now);
         }
@@ -108,7 +108,7 @@ impl Session {
         &mut self,
         here: Clearance,
         next: &Clearance,
-        certainty: Certainty,
+        certainty: InsideCertainty,
         is_moving: bool,
         goes_deeper: bool,
         now: Moment,
@@ -119,11 +119,11 @@ impl Session {
         let (here_deg, next_deg) = (here.angle.degrees() + dip_deg, next.angle.degrees() + dip_deg);
         let driver = self.mover();
         let is_inside = match certainty {
-            Certainty::Known => here_deg < 0.0,
-            Certainty::Inside => true,
+            InsideCertainty::Known => here_deg < 0.0,
+            InsideCertainty::Inside => true,
             // If the antenna may be inside already, only the gate forbids or permits.
-            Certainty::Unknown if here_deg < 0.0 => return,
-            Certainty::Unknown => false,
+            InsideCertainty::Unknown if here_deg < 0.0 => return,
+            InsideCertainty::Unknown => false,
         };
         // A program slows down at the start of its pass; the readings show whether it does.
         let ends_there = driver == Mover::Program && here.barrier == Barrier::MinimumElevation;

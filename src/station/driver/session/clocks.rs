@@ -17,13 +17,13 @@ struct Clocks {
 
 /// Clock values at the last comparison.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct ClockWatch {
+pub(super) struct SessionClocks {
     last: Option<Clocks>,
 }
 
 /// Difference between two comparisons of the clocks.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ClockChange {
+pub(super) struct ClockAdvance {
     /// Steady time between the comparisons.
     pub(super) steady: Duration,
     /// Step of UTC, seconds.
@@ -32,16 +32,16 @@ pub(super) struct ClockChange {
     pub(super) slept: Option<Duration>,
 }
 
-impl ClockWatch {
+impl SessionClocks {
     /// Compares the clocks with their last values. `asleep`: total sleep of the computer.
-    pub(super) fn compare(&mut self, now: Moment, asleep: Duration) -> Option<ClockChange> {
+    pub(super) fn compare(&mut self, now: Moment, asleep: Duration) -> Option<ClockAdvance> {
         let before = self.last.replace(Clocks { moment: now, asleep })?;
         let slept = asleep.saturating_sub(before.asleep);
         let steady = now.steady.saturating_duration_since(before.moment.steady);
         // The steady clock pauses while the computer sleeps.
         let expected_s = (steady + slept).as_secs_f64();
         let by_s = seconds_between(before.moment.utc, now.utc) - expected_s;
-        Some(ClockChange {
+        Some(ClockAdvance {
             steady,
             stepped_s: Some(by_s).filter(|by_s| by_s.abs() > STEP_S),
             slept: Some(slept).filter(|slept| *slept >= NAP),
@@ -64,7 +64,7 @@ mod tests {
             utc: add_seconds(Timestamp::UNIX_EPOCH, utc_s),
         };
         let look = |now, asleep_s: u64| {
-            let mut clocks = ClockWatch::default();
+            let mut clocks = SessionClocks::default();
             assert!(clocks.compare(moment(0.0, 0.0), Duration::ZERO).is_none(), "the first look");
             let change = clocks.compare(now, Duration::from_secs(asleep_s)).unwrap();
             (change.stepped_s.map(f64::round), change.slept)

@@ -12,7 +12,7 @@ use crate::{
 
 /// Step that may not be over yet.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Step {
+struct StepMotion {
     /// Signed step sizes of the two axes, degrees.
     steps_deg: [f64; 2],
     begun: Instant,
@@ -30,7 +30,7 @@ pub(super) struct Doubt {
 pub(super) struct Commanded {
     pub(super) activity: Activity,
     pub(super) key: JogKey,
-    step: Option<Step>,
+    step: Option<StepMotion>,
     /// `true` after an action of the make, until standstill is proved.
     acts: bool,
     doubt: Option<Doubt>,
@@ -102,7 +102,7 @@ impl Commanded {
     }
 
     pub(super) fn begin_step(&mut self, steps_deg: [f64; 2], now: Instant) {
-        self.step = Some(Step { steps_deg, begun: now });
+        self.step = Some(StepMotion { steps_deg, begun: now });
     }
 
     /// Returns the sizes of a step that may not be over yet, degrees.
@@ -117,7 +117,7 @@ impl Commanded {
     /// Ends a step when a state requested after it shows standstill. `waits`: the motion has not
     /// been sent or answered.
     pub(super) fn follow_step(&mut self, measured: Option<Measured>, waits: bool) {
-        let Some(Step { begun, .. }) = self.step else { return };
+        let Some(StepMotion { begun, .. }) = self.step else { return };
         // A state from before the step shows the earlier standstill.
         let stands =
             measured.is_some_and(|measured| measured.requested > begun && !measured.moving());

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::{clocks::ClockWatch, likeness::Comparison, silence::Silence};
+use super::{clocks::SessionClocks, likeness::Comparison, silence::Silence};
 use crate::{
     clock::Instant,
     contract::driver::{LinkLoss, LinkState},
@@ -26,7 +26,7 @@ pub(super) enum LinkNeed {
 
 /// Poll period and silence limit of a unit.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Pace {
+pub(super) struct PollPace {
     pub(super) poll_period: Duration,
     pub(super) patience: Duration,
 }
@@ -55,7 +55,7 @@ pub(super) struct Contact {
     program_was_on: bool,
     /// Sleep of the computer since the last reading of the unit.
     slept: Duration,
-    pub(super) clocks: ClockWatch,
+    pub(super) clocks: SessionClocks,
     pub(super) silence: Silence,
     pub(super) comparison: Comparison,
 }
@@ -81,7 +81,7 @@ impl Contact {
             unread: true,
             program_was_on: false,
             slept: Duration::ZERO,
-            clocks: ClockWatch::default(),
+            clocks: SessionClocks::default(),
             silence: Silence::default(),
             comparison: Comparison::default(),
         }
@@ -190,7 +190,7 @@ impl Contact {
     pub(super) fn follow_age(
         &mut self,
         state: &AntennaState,
-        pace: Pace,
+        pace: PollPace,
         now: Instant,
         start: Instant,
     ) -> Option<LinkLoss> {
@@ -226,7 +226,7 @@ impl Contact {
     }
 
     /// Returns the time at which the age of the last reply changes the link state.
-    pub(super) fn due(&self, state: &AntennaState, pace: Pace) -> Option<Instant> {
+    pub(super) fn due(&self, state: &AntennaState, pace: PollPace) -> Option<Instant> {
         let last = state.traffic.last_reply.max(state.link_since)?;
         let requested = state.measured_on_link().map(|measured| measured.requested + LATE_REPLY);
         let wait = match self.link {

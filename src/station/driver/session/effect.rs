@@ -41,7 +41,7 @@ enum Expected {
 
 /// Motion of Azel that must show in the angles.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Requested {
+pub(super) enum RequestedMotion {
     Nothing,
     Jog {
         rates_deg_s: [f64; 2],
@@ -159,18 +159,18 @@ impl Effects {
     pub(super) fn failed_axis(
         &mut self,
         look: &Measured,
-        requested: Requested,
+        requested: RequestedMotion,
         suspects: [bool; 2],
         can: Capabilities,
         figures: Figures,
     ) -> Option<usize> {
         let shows_after = Duration::try_from_secs_f64(can.effect.shows_after_s).unwrap_or_default();
         let expected = match requested {
-            Requested::Nothing => [None; 2],
-            Requested::Jog { rates_deg_s, is_at_end } => {
+            RequestedMotion::Nothing => [None; 2],
+            RequestedMotion::Jog { rates_deg_s, is_at_end } => {
                 self.expected_of_jog(look, rates_deg_s, is_at_end)
             }
-            Requested::Approach(approach) => {
+            RequestedMotion::Approach(approach) => {
                 self.expected_of_approach(look, approach, can, figures, shows_after)
             }
         };

@@ -3,7 +3,7 @@
 use super::{
     Session,
     activity::{Activity, SlewStage},
-    effect::{Approach, Requested},
+    effect::{Approach, RequestedMotion},
 };
 use crate::{
     clock::Moment,
@@ -40,14 +40,14 @@ impl Session {
     }
 
     /// Returns the motion of Azel that must show in the angles.
-    fn requested_motion(&self, look: &Measured) -> Requested {
+    fn requested_motion(&self, look: &Measured) -> RequestedMotion {
         // A halt ends the expected motion, and without a link no angle would show it.
         if self.stop.is_under_way() || !self.contact.is_open() {
-            return Requested::Nothing;
+            return RequestedMotion::Nothing;
         }
         if let Some(jog) = self.commanded.key.started() {
             let rates_deg_s = jog.rates_deg_s();
-            return Requested::Jog {
+            return RequestedMotion::Jog {
                 rates_deg_s,
                 is_at_end: self.is_at_own_end(look, rates_deg_s),
             };
@@ -56,10 +56,10 @@ impl Session {
         let is_slew = slew.is_some_and(|slew| matches!(slew.stage, SlewStage::UnderWay { .. }));
         let is_track = matches!(self.commanded.activity, Activity::ProgramTrack(_));
         if !is_slew && !is_track {
-            return Requested::Nothing;
+            return RequestedMotion::Nothing;
         }
         let [(from_deg, to_deg), _] = self.gate.bounds().mount().travel_deg();
-        Requested::Approach(Approach {
+        RequestedMotion::Approach(Approach {
             is_slew,
             to_deg: self.gate.sent_to_deg(),
             rates_deg_s: self.setup.track_config().rates_deg_s(),

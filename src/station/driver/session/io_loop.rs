@@ -4,7 +4,7 @@ use std::{io, time::Duration};
 
 use tokio::io::{AsyncReadExt, AsyncWriteExt, ReadHalf, WriteHalf};
 
-use super::{Session, contact::LinkNeed, wires::Input};
+use super::{Session, contact::LinkNeed, wires::SessionInput};
 use crate::{
     clock::{Clock, Moment},
     contract::driver::{Command, Event, LinkLoss},
@@ -175,20 +175,20 @@ impl Session {
     }
 
     /// Returns `false` to close the session or disconnect.
-    fn take_offline(&mut self, turn: Input) -> bool {
+    fn take_offline(&mut self, turn: SessionInput) -> bool {
         let now = self.now();
         match turn {
-            Input::Over => return false,
-            Input::Stop => self.stop_and_void(now),
-            Input::Command(Numbered { command: Command::Disconnect, .. }) => {
+            SessionInput::Over => return false,
+            SessionInput::Stop => self.stop_and_void(now),
+            SessionInput::Command(Numbered { command: Command::Disconnect, .. }) => {
                 return !self.disconnect();
             }
-            Input::Command(numbered) => {
+            SessionInput::Command(numbered) => {
                 self.carry_out_numbered(numbered, now, Self::carry_out_offline);
             }
-            Input::Bounds(bounds) => self.keep_within(*bounds),
-            Input::Sleep(awake) => self.before_sleep(awake, now),
-            Input::Bytes(_) | Input::Lost(_) | Input::Time => {}
+            SessionInput::Bounds(bounds) => self.keep_within(*bounds),
+            SessionInput::Sleep(awake) => self.before_sleep(awake, now),
+            SessionInput::Bytes(_) | SessionInput::Lost(_) | SessionInput::Time => {}
         }
         self.let_sleep(now);
         // The session needed the link only for a STOP and no longer owes one.
@@ -262,36 +262,36 @@ impl Session {
             }
             let input = self.wait(&mut reader, &mut buffer).await;
             match input {
-                Input::Over => {
+                SessionInput::Over => {
                     self.shut_down(&mut reader, &mut writer).await;
                     return None;
                 }
-                Input::Lost(loss) => return Some(loss),
-                Input::Stop => {
+                SessionInput::Lost(loss) => return Some(loss),
+                SessionInput::Stop => {
                     let now = self.now();
                     self.stop_and_void(now);
                 }
-                Input::Sleep(awake) => {
+                SessionInput::Sleep(awake) => {
                     let now = self.now();
                     self.before_sleep(awake, now);
                 }
-                Input::Command(Numbered { command: Command::Disconnect, .. }) => {
+                SessionInput::Command(Numbered { command: Command::Disconnect, .. }) => {
                     if self.disconnect() {
                         self.shut_down(&mut reader, &mut writer).await;
                         return None;
                     }
                 }
-                Input::Bounds(bounds) => self.keep_within(*bounds),
-                Input::Command(numbered) => {
+                SessionInput::Bounds(bounds) => self.keep_within(*bounds),
+                SessionInput::Command(numbered) => {
                     let now = self.now();
                     self.carry_out_numbered(numbered, now, Self::carry_out);
                 }
-                Input::Bytes(count) => {
+                SessionInput::Bytes(count) => {
                     let now = self.now();
                     self.gate.device().receive(buffer.get(..count).unwrap_or_default(), now);
                     self.record();
                 }
-                Input::Time => {}
+                SessionInput::Time => {}
             }
         }
     }
@@ -319,7 +319,11 @@ impl Session {
         Ok(())
     }
 
-    async fn wait(&mut self, reader: &mut ReadHalf<Box<dyn Stream>>, buffer: &mut [u8]) -> Input {
+    async fn wait(
+        &mut self,
+        reader: &mut ReadHalf<Box<dyn Stream>>,
+        buffer: &mut [u8],
+    ) -> SessionInput {
         let now = self.now();
         let due = self.gate.device().due(now);
         let pace = self.pace();
@@ -341,12 +345,12 @@ impl Session {
             turn = self.wires.next() => turn,
             // Read bytes after commands: a unit that sends without end must not block a STOP.
             read = reader.read(buffer) => match read {
-                Ok(0) => Input::Lost(LinkLoss::Closed),
-                Ok(count) => Input::Bytes(count),
-                Err(error) => Input::Lost(LinkLoss::Broken(error_text(&error))),
+                Ok(0) => SessionInput::Lost(LinkLoss::Closed),
+                Ok(count) => SessionInput::Bytes(count),
+                Err(error) => SessionInput::Lost(LinkLoss::Broken(error_text(&error))),
             },
-            () = judged.notified() => Input::Time,
-            () = clock.sleep_until(deadline) => Input::Time,
+            () = judged.notified() => SessionInput::Time,
+            () = clock.sleep_until(deadline) => SessionInput::Time,
         }
     }
 }

@@ -51,10 +51,10 @@ impl Jog {
 
 /// State of the operator's jog keys.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct JogKey(State);
+pub(super) struct JogKey(KeyState);
 
 #[derive(Debug, Clone, PartialEq, Default)]
-enum State {
+enum KeyState {
     #[default]
     Up,
     Down(Jog),
@@ -75,15 +75,15 @@ pub(super) enum PositionWait {
 impl JogKey {
     pub(super) fn pressed(&self) -> Option<&Jog> {
         match &self.0 {
-            State::Down(jog) => Some(jog),
-            State::Up | State::Spent(_) => None,
+            KeyState::Down(jog) => Some(jog),
+            KeyState::Up | KeyState::Spent(_) => None,
         }
     }
 
     fn pressed_mut(&mut self) -> Option<&mut Jog> {
         match &mut self.0 {
-            State::Down(jog) => Some(jog),
-            State::Up | State::Spent(_) => None,
+            KeyState::Down(jog) => Some(jog),
+            KeyState::Up | KeyState::Spent(_) => None,
         }
     }
 
@@ -94,7 +94,7 @@ impl JogKey {
 
     /// Returns `true` if an ended jog's key is still down in this direction.
     pub(super) fn is_spent(&self, rates_deg_s: [f64; 2]) -> bool {
-        matches!(self.0, State::Spent(rates) if is_same_way(rates, rates_deg_s))
+        matches!(self.0, KeyState::Spent(rates) if is_same_way(rates, rates_deg_s))
     }
 
     /// Extends a jog with exactly these rates. Returns `false` if no such jog runs.
@@ -108,7 +108,7 @@ impl JogKey {
     }
 
     pub(super) fn press(&mut self, rates_deg_s: [f64; 2], end: Instant, now: Instant) {
-        self.0 = State::Down(Jog {
+        self.0 = KeyState::Down(Jog {
             rates_deg_s,
             pressed_at: now,
             has_asked: false,
@@ -132,25 +132,25 @@ impl JogKey {
 
     /// Records the release of the key.
     pub(super) fn release(&mut self) {
-        self.0 = State::Up;
+        self.0 = KeyState::Up;
     }
 
     /// Ends a jog whose key is still down.
     pub(super) fn spend(&mut self) {
-        if let State::Down(jog) = &self.0 {
-            self.0 = State::Spent(jog.rates_deg_s);
+        if let KeyState::Down(jog) = &self.0 {
+            self.0 = KeyState::Spent(jog.rates_deg_s);
         }
     }
 
     /// Records a held key with these rates that must be released before the next jog.
     pub(super) fn spend_rates(&mut self, rates_deg_s: [f64; 2]) {
-        self.0 = State::Spent(rates_deg_s);
+        self.0 = KeyState::Spent(rates_deg_s);
     }
 
     /// Ends a jog; the same key may start another.
     pub(super) fn end(&mut self) {
-        if let State::Down(_) = self.0 {
-            self.0 = State::Up;
+        if let KeyState::Down(_) = self.0 {
+            self.0 = KeyState::Up;
         }
     }
 

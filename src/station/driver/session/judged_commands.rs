@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{
     Session,
-    judging::{Answer, Poll},
+    judging::{JudgingAnswer, Poll},
 };
 use crate::{
     clock::Moment,
@@ -42,14 +42,14 @@ impl Session {
         }
     }
 
-    fn take_answer(&mut self, answer: Answer, now: Moment) {
+    fn take_answer(&mut self, answer: JudgingAnswer, now: Moment) {
         let planned = match answer {
-            Answer::Paths(judgements) => return self.gate.take_judgements(judgements),
-            Answer::Detour(detour) => {
+            JudgingAnswer::Paths(judgements) => return self.gate.take_judgements(judgements),
+            JudgingAnswer::Detour(detour) => {
                 self.gate.take_detour(*detour);
                 None
             }
-            Answer::Plan(planned) => match self.judging.keep_plan(planned) {
+            JudgingAnswer::Plan(planned) => match self.judging.keep_plan(planned) {
                 None => return,
                 planned => planned,
             },

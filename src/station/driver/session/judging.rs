@@ -37,7 +37,7 @@ enum Question {
 }
 
 #[derive(Debug)]
-pub(super) enum Answer {
+pub(super) enum JudgingAnswer {
     Paths(Vec<(PathQuestion, Result<(), NotClear>)>),
     Plan(Box<PlannedPath>),
     Detour(Box<Detour>),
@@ -48,23 +48,23 @@ pub(super) enum Answer {
 pub(super) enum Poll {
     /// Missing answer, or no question.
     Pending,
-    Answer(Answer),
+    Answer(JudgingAnswer),
     /// Worker that ended without an answer.
     Broken,
 }
 
 impl Question {
-    fn answer(self) -> Answer {
+    fn answer(self) -> JudgingAnswer {
         match self {
             Self::Paths(questions) => {
                 let judged = questions.into_iter().map(|question| {
                     let verdict = question.judge();
                     (question, verdict)
                 });
-                Answer::Paths(judged.collect())
+                JudgingAnswer::Paths(judged.collect())
             }
-            Self::Plan(order) => Answer::Plan(Box::new(order.plan())),
-            Self::Detour(question) => Answer::Detour(Box::new(question.search())),
+            Self::Plan(order) => JudgingAnswer::Plan(Box::new(order.plan())),
+            Self::Detour(question) => JudgingAnswer::Detour(Box::new(question.search())),
         }
     }
 }
@@ -72,7 +72,7 @@ impl Question {
 #[derive(Debug, Default)]
 pub(super) struct Judging {
     /// Current task; at most one runs at a time.
-    running: Option<oneshot::Receiver<Answer>>,
+    running: Option<oneshot::Receiver<JudgingAnswer>>,
     /// Notification of an available answer.
     is_done: Arc<Notify>,
     /// Planned path for the waiting command.

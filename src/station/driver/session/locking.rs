@@ -9,10 +9,10 @@ const READ_BACK: Duration = Duration::from_secs(10);
 
 /// Progress of a lock-out, if the unit is locked out.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Locking(Option<Progress>);
+pub(super) struct Locking(Option<LockProgress>);
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Progress {
+struct LockProgress {
     begun: Instant,
     /// `true` if the unit has a program that could start on its own.
     has_program: bool,
@@ -37,7 +37,7 @@ pub(super) enum LockStep {
 
 impl Locking {
     pub(super) fn begin(&mut self, has_program: bool, now: Instant) {
-        self.0 = Some(Progress {
+        self.0 = Some(LockProgress {
             begun: now,
             has_program,
             is_asked: false,

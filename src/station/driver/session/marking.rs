@@ -27,10 +27,10 @@ const REFRESH: Duration = Duration::from_mins(1);
 const AGAIN: Duration = Duration::from_secs(10);
 
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Marking(State);
+pub(super) struct Marking(MarkState);
 
 #[derive(Debug, Clone, Copy, Default)]
-enum State {
+enum MarkState {
     #[default]
     None,
     /// Mark of an earlier run.
@@ -47,7 +47,7 @@ enum State {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Progress {
+pub(super) enum MarkProgress {
     Pending,
     /// Settled mark: it is on disk, or the operator knows that it is not.
     Settled,
@@ -63,27 +63,27 @@ pub(super) fn is_old(mark: Mark, now: Timestamp) -> bool {
 
 impl Marking {
     pub(super) fn found(begun: Option<Timestamp>) -> Self {
-        Self(State::Found { begun })
+        Self(MarkState::Found { begun })
     }
 
     /// Follows the progress of the mark to the disk. Requests the mark if this session has not yet.
-    pub(super) fn follow(&mut self, debts: &UnitDebts, now: Moment) -> Progress {
-        let State::Put { first, is_reported, .. } = &mut self.0 else {
+    pub(super) fn follow(&mut self, debts: &UnitDebts, now: Moment) -> MarkProgress {
+        let MarkState::Put { first, is_reported, .. } = &mut self.0 else {
             self.request(debts, now);
-            return Progress::Pending;
+            return MarkProgress::Pending;
         };
         let is_late = now.steady.saturating_duration_since(*first) >= MAX;
         match debts.mark_kept() {
             PromisedFile::OnDisk => {
                 *is_reported = false;
-                Progress::Settled
+                MarkProgress::Settled
             }
-            PromisedFile::Pending if !is_late => Progress::Pending,
+            PromisedFile::Pending if !is_late => MarkProgress::Pending,
             PromisedFile::Pending | PromisedFile::Failed(_) => {
                 if std::mem::replace(is_reported, true) {
-                    Progress::Settled
+                    MarkProgress::Settled
                 } else {
-                    Progress::Failed
+                    MarkProgress::Failed
                 }
             }
         }
@@ -92,18 +92,18 @@ impl Marking {
     /// Requests the mark with the current time.
     pub(super) fn request(&mut self, debts: &UnitDebts, now: Moment) {
         let (begun, first, is_reported) = match self.0 {
-            State::None => (Some(now.utc), now.steady, false),
+            MarkState::None => (Some(now.utc), now.steady, false),
             // The debt began in the earlier run; only the attempt is new.
-            State::Found { begun } => (begun, now.steady, false),
-            State::Put { begun, first, is_reported, .. } => (begun, first, is_reported),
+            MarkState::Found { begun } => (begun, now.steady, false),
+            MarkState::Put { begun, first, is_reported, .. } => (begun, first, is_reported),
         };
         debts.mark(Mark { start: begun, tried: Some(now.utc) });
-        self.0 = State::Put { begun, first, last: now.steady, is_reported };
+        self.0 = MarkState::Put { begun, first, last: now.steady, is_reported };
     }
 
     /// Records that the session still attends to a unit that may be moving.
     pub(super) fn refresh(&mut self, debts: &UnitDebts, now: Moment) {
-        let State::Put { last, .. } = self.0 else { return };
+        let MarkState::Put { last, .. } = self.0 else { return };
         let after = match debts.mark_kept() {
             PromisedFile::OnDisk => REFRESH,
             PromisedFile::Failed(_) => AGAIN,
@@ -116,7 +116,7 @@ impl Marking {
 
     /// Returns the reason why the mark is not on disk.
     pub(super) fn not_on_disk(&self, debts: &UnitDebts, now: Instant) -> Option<String> {
-        let State::Put { first, .. } = self.0 else { return None };
+        let MarkState::Put { first, .. } = self.0 else { return None };
         let is_late = now.saturating_duration_since(first) >= MAX;
         match debts.mark_kept() {
             PromisedFile::OnDisk => None,
@@ -127,7 +127,7 @@ impl Marking {
 
     /// Returns the time of the next check whether the mark is on disk.
     pub(super) fn due(&self, debts: &UnitDebts, now: Instant) -> Option<Instant> {
-        let State::Put { first, .. } = self.0 else { return None };
+        let MarkState::Put { first, .. } = self.0 else { return None };
         let is_awaited = now.saturating_duration_since(first) < MAX
             && debts.mark_kept() == PromisedFile::Pending;
         is_awaited.then_some(now + LOOK)
@@ -136,8 +136,8 @@ impl Marking {
     /// Removes the mark, because Azel owes the unit nothing any more.
     pub(super) fn remove(&mut self, debts: &UnitDebts) {
         match std::mem::take(&mut self.0) {
-            State::None => {}
-            State::Found { .. } | State::Put { .. } => debts.unmark(),
+            MarkState::None => {}
+            MarkState::Found { .. } | MarkState::Put { .. } => debts.unmark(),
         }
     }
 }

@@ -19,7 +19,7 @@ const APART: Duration = Duration::from_millis(150);
 const ROUNDING_DEG: f64 = 1e-6;
 /// Last measured and reported values.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Watch {
+pub(super) struct BoundsMonitor {
     /// Receive time of the last judged position.
     looked: Option<Instant>,
     /// Later one of the two positions for the rates.
@@ -82,7 +82,7 @@ fn is_at_limit(axis: Axis) -> bool {
     axis.plus_limit != axis.minus_limit
 }
 
-impl Watch {
+impl BoundsMonitor {
     /// Returns `true` once for each position.
     pub(super) fn is_new(&mut self, look: &Measured) -> bool {
         self.looked.replace(look.received) != Some(look.received)
@@ -122,7 +122,7 @@ impl Watch {
         }
         self.last = Some(*look);
         let mut rates = before.map_or([0.0; 2], |before| rates_deg_s(&before, look));
-        let Watch { rates_deg_s: last_rates, angles, rests, .. } = &mut *self;
+        let BoundsMonitor { rates_deg_s: last_rates, angles, rests, .. } = &mut *self;
         let last = last_rates.iter().zip(angles).zip(rests).zip(intervals.0);
         for ((rate, axis), (((last_rate, last), rest), interval)) in
             rates.iter_mut().zip(look.axes).zip(last)

@@ -2,8 +2,8 @@
 
 use super::{
     effect::Effects,
-    monitor::Watch as Monitor,
-    on_board::Watch,
+    monitor::BoundsMonitor as Monitor,
+    on_board::OnBoardWatch,
     overrun::Overrun,
     place::Place,
     standstill::{Figures, Rest},
@@ -17,7 +17,7 @@ pub(super) struct Observed {
     pub(super) overrun: Overrun,
     pub(super) effects: Effects,
     /// Watch over a track that Azel did not request.
-    pub(super) unasked: Option<Watch>,
+    pub(super) unasked: Option<OnBoardWatch>,
     rest: Rest,
     /// Receive time of the last position compared at rest.
     looked: Option<Instant>,

@@ -30,7 +30,7 @@ pub(super) struct PointingLimits {
     pub(super) max_rate_deg_s: f64,
 }
 
-pub(super) struct Watch {
+pub(super) struct OnBoardWatch {
     judge: Arc<Judge>,
     found: Arc<Supervision>,
     found_by: OnBoard,
@@ -48,7 +48,7 @@ pub(super) struct Watch {
     turned: Option<(Measured, AzEl)>,
 }
 
-impl Watch {
+impl OnBoardWatch {
     pub(super) fn new(judge: Arc<Judge>, unit: &OnBoard) -> Self {
         Self {
             found: Arc::new(judge.supervise(unit, false)),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{
     Session,
     activity::Slew,
-    on_board::{PointingLimits, Watch},
+    on_board::{OnBoardWatch, PointingLimits},
 };
 use crate::{
     astro::{
@@ -26,12 +26,12 @@ impl Session {
         &mut self,
         pass: OnBoardPass,
         now: Moment,
-    ) -> Result<Option<(Watch, Option<Slew>)>, Event> {
+    ) -> Result<Option<(OnBoardWatch, Option<Slew>)>, Event> {
         let name = pass.target.name.clone();
         let judge = Judge::new(pass, self.setup.ability())
             .map_err(|error| Event::CannotProgramTrack(name, TrackProblem::Orbit(error)))?;
         // Azel removes the offsets of another track before this one begins.
-        let watch = Watch::new(Arc::new(judge), &self.plain_unit());
+        let watch = OnBoardWatch::new(Arc::new(judge), &self.plain_unit());
         if let Some(event) = watch.objection() {
             return Err(event);
         }
@@ -89,7 +89,7 @@ impl Session {
     }
 
     /// Returns the watch over the on-board track, also over a track that Azel did not request.
-    pub(super) fn on_board_watch(&self) -> Option<&Watch> {
+    pub(super) fn on_board_watch(&self) -> Option<&OnBoardWatch> {
         self.commanded
             .activity
             .on_board()
@@ -113,7 +113,8 @@ impl Session {
         }
         // Elements without a valid orbit give no direction for a comparison.
         let judge = Judge::new(pass, self.setup.ability()).ok();
-        self.observed.unasked = judge.map(|judge| Watch::new(Arc::new(judge), &state.on_board));
+        self.observed.unasked =
+            judge.map(|judge| OnBoardWatch::new(Arc::new(judge), &state.on_board));
     }
 
     /// Returns `true` if the antenna stands while the path of the unit, now at `target`, continues.
@@ -132,7 +133,7 @@ impl Session {
     }
 
     /// Returns the watch over the on-board track, also over a track that Azel did not request.
-    fn on_board_watch_mut(&mut self) -> Option<&mut Watch> {
+    fn on_board_watch_mut(&mut self) -> Option<&mut OnBoardWatch> {
         self.commanded
             .activity
             .on_board_mut()

@@ -8,7 +8,7 @@ use tokio::sync::Notify;
 use super::{
     auto_track::{AutoTrackOff, NextStep},
     locking::Locking,
-    marking::{Marking, Progress},
+    marking::{MarkProgress, Marking},
     unit_debts::UnitDebts,
 };
 use crate::{
@@ -53,9 +53,9 @@ impl Owed {
     }
 
     /// Requests the mark of a moving unit, unless this session already has.
-    pub(super) fn follow_mark(&mut self, now: Moment) -> Progress {
+    pub(super) fn follow_mark(&mut self, now: Moment) -> MarkProgress {
         if !self.debts.has_marks() {
-            return Progress::Settled;
+            return MarkProgress::Settled;
         }
         self.marking.follow(&self.debts, now)
     }

@@ -3,7 +3,7 @@
 use super::{
     Session,
     auto_track::NextStep,
-    marking::{self, Progress, is_old},
+    marking::{self, MarkProgress, is_old},
 };
 use crate::{
     clock::Moment,
@@ -18,7 +18,7 @@ impl Session {
         }
         let progress = self.owed.follow_mark(now);
         self.tell_failed_mark(progress);
-        progress != Progress::Pending
+        progress != MarkProgress::Pending
     }
 
     /// Records an owed STOP on disk after the bytes of the STOP, which wait for no disk.
@@ -33,8 +33,8 @@ impl Session {
         }
     }
 
-    fn tell_failed_mark(&self, progress: Progress) {
-        if progress == Progress::Failed {
+    fn tell_failed_mark(&self, progress: MarkProgress) {
+        if progress == MarkProgress::Failed {
             self.tell(Event::Safety(Safety::NoMark));
         }
     }

@@ -1,6 +1,8 @@
 //! Release of a unit to others, and its return on the operator's request.
 
-use super::{Session, activity::Activity, contact::LinkNeed, io_loop::MIN_WAIT, wires::Input};
+use super::{
+    Session, activity::Activity, contact::LinkNeed, io_loop::MIN_WAIT, wires::SessionInput,
+};
 use crate::contract::driver::{Event, Refusal};
 
 impl Session {
@@ -20,23 +22,26 @@ impl Session {
                 Some(due) => tokio::select! {
                     biased;
                     turn = word => turn,
-                    () = clock.sleep_until(due.max(now.steady + MIN_WAIT)) => Input::Time,
+                    () = clock.sleep_until(due.max(now.steady + MIN_WAIT)) => SessionInput::Time,
                 },
             };
             // The command may have arrived hours later.
             let now = self.now();
             match turn {
-                Input::Over => return false,
-                Input::Stop => {
+                SessionInput::Over => return false,
+                SessionInput::Stop => {
                     self.stop_and_void(now);
                     self.contact.want(LinkNeed::ForStop);
                 }
-                Input::Command(numbered) => {
+                SessionInput::Command(numbered) => {
                     self.carry_out_numbered(numbered, now, Self::carry_out_offline);
                 }
-                Input::Bounds(bounds) => self.keep_within(*bounds),
+                SessionInput::Bounds(bounds) => self.keep_within(*bounds),
                 // Dropping the token lets the computer sleep: a released unit needs no STOP.
-                Input::Sleep(_) | Input::Bytes(_) | Input::Lost(_) | Input::Time => {}
+                SessionInput::Sleep(_)
+                | SessionInput::Bytes(_)
+                | SessionInput::Lost(_)
+                | SessionInput::Time => {}
             }
         }
         let now = self.now();

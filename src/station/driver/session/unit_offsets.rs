@@ -21,7 +21,7 @@ use crate::{
     promises::PromisedFile,
 };
 pub(super) use shifting::Shifting;
-use shifting::{Certainty, Step};
+use shifting::{OffsetCertainty, ShiftStep};
 
 impl Session {
     /// Changes the offsets that Azel adds to the unit's own track.
@@ -179,8 +179,8 @@ impl Session {
     pub(super) fn watch_unit_offsets(&mut self, now: Moment) {
         let Some(fields) = self.setup.track_offsets() else { return };
         match self.unit_offsets.step() {
-            Step::None => {}
-            Step::Marking { requested } => match self.owed.debts().shifted_kept() {
+            ShiftStep::None => {}
+            ShiftStep::Marking { requested } => match self.owed.debts().shifted_kept() {
                 PromisedFile::Pending => return,
                 PromisedFile::Failed(_) => {
                     self.unit_offsets.end_step();
@@ -197,7 +197,7 @@ impl Session {
                     }
                 }
             },
-            Step::Writing { ticket } => self.watch_write(fields, ticket, now),
+            ShiftStep::Writing { ticket } => self.watch_write(fields, ticket, now),
         }
         if self.unit_offsets.is_idle() {
             self.watch_shifted(fields, now);
@@ -327,9 +327,9 @@ impl Session {
     /// Returns `true` if Azel has read the unit after the time in which it may apply a change late.
     fn is_sure(&mut self, fields: &TrackOffsetFields, now: Moment) -> bool {
         match self.unit_offsets.certainty(now.steady) {
-            Certainty::Sure => true,
-            Certainty::Unsure => false,
-            Certainty::MustRead => {
+            OffsetCertainty::Sure => true,
+            OffsetCertainty::Unsure => false,
+            OffsetCertainty::MustRead => {
                 self.read_offsets_again(fields);
                 false
             }

@@ -18,7 +18,7 @@ use crate::{
 };
 
 /// Input that ended a wait.
-pub(super) enum Input {
+pub(super) enum SessionInput {
     Bytes(usize),
     Lost(LinkLoss),
     Command(Numbered),
@@ -177,15 +177,17 @@ impl Wires {
     }
 
     /// Waits for the next input; a STOP comes first.
-    pub(super) async fn next(&mut self) -> Input {
+    pub(super) async fn next(&mut self) -> SessionInput {
         // The order matters: a STOP must not wait behind the commands that it voids. A random order
         // would also make two runs of one rehearsal differ.
         tokio::select! {
             biased;
-            () = self.stopper.stop.notified() => Input::Stop,
-            awake = next_sleep(self.before_sleep.as_deref()) => Input::Sleep(awake),
-            bounds = next_bounds(&mut self.bounds) => Input::Bounds(Box::new(bounds)),
-            command = next_command(&self.commands, &self.stopper) => command.map_or(Input::Over, Input::Command),
+            () = self.stopper.stop.notified() => SessionInput::Stop,
+            awake = next_sleep(self.before_sleep.as_deref()) => SessionInput::Sleep(awake),
+            bounds = next_bounds(&mut self.bounds) => SessionInput::Bounds(Box::new(bounds)),
+            command = next_command(&self.commands, &self.stopper) => {
+                command.map_or(SessionInput::Over, SessionInput::Command)
+            }
         }
     }
 

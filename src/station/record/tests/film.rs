@@ -13,7 +13,7 @@ use crate::{
 };
 
 /// Picture with two numbers, a part, and a value that changes every ten seconds.
-struct Figures {
+struct FilmFigures {
     second: f64,
     value: i64,
     part: Arc<String>,
@@ -24,7 +24,7 @@ fn time(second: f64) -> jiff::Timestamp {
     crate::astro::time::add_seconds(start(), second)
 }
 
-impl Picture for Figures {
+impl Picture for FilmFigures {
     fn moment(&self) -> Moment {
         Moment { utc: time(self.second), steady: Instant::now() }
     }
@@ -49,7 +49,7 @@ fn film(path: &Path, seconds: std::ops::Range<u32>, part: &Arc<String>) {
             stands = Arc::new(value);
         }
         let (part, stands) = (Arc::clone(part), Arc::clone(&stands));
-        recorder.film(Arc::new(Figures { second, value, part, stands }));
+        recorder.film(Arc::new(FilmFigures { second, value, part, stands }));
         if value % 3 == 0 {
             recorder.flush();
         }
@@ -123,7 +123,7 @@ fn pictures_that_were_lost_within_a_run_are_told_as_a_hole() {
     let take = |second: u32, size: usize| {
         let (second, value) = (f64::from(second), i64::from(second / 10));
         let part = Arc::new("x".repeat(size));
-        recorder.film(Arc::new(Figures { second, value, part, stands: Arc::new(value) }));
+        recorder.film(Arc::new(FilmFigures { second, value, part, stands: Arc::new(value) }));
     };
     (0..30).for_each(|second| take(second, 10));
     recorder.flush();
@@ -168,7 +168,7 @@ fn a_picture_for_which_there_was_no_room_is_told_as_a_hole() {
             camera.cut();
         }
         let (part, stands) = (Arc::clone(&part), Arc::new(value));
-        camera.take(&Figures { second, value, part, stands });
+        camera.take(&FilmFigures { second, value, part, stands });
     }
     let mut db = file::open(&path).unwrap();
     let tx = db.transaction().unwrap();
@@ -187,7 +187,7 @@ fn a_reel_that_is_written_again_as_one_piece_is_read_again() {
     let recorder = recorder(&path);
     let take = |second: f64| {
         let (value, part) = (second as i64, Arc::default());
-        recorder.film(Arc::new(Figures { second, value, part, stands: Arc::new(value) }));
+        recorder.film(Arc::new(FilmFigures { second, value, part, stands: Arc::new(value) }));
     };
     take(0.0);
     recorder.flush();
@@ -209,7 +209,7 @@ fn the_film_goes_on_while_it_is_read() {
     let take = |second| {
         let value = second as i64;
         let (part, stands) = (Arc::clone(&part), Arc::new(value));
-        recorder.film(Arc::new(Figures { second, value, part, stands }));
+        recorder.film(Arc::new(FilmFigures { second, value, part, stands }));
         recorder.flush();
     };
     take(0.0);

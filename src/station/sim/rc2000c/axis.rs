@@ -32,7 +32,7 @@ enum Goal {
 
 /// External trouble of an axis.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Trouble {
+pub(super) struct AxisTrouble {
     /// `true` if the axis cannot be turned.
     pub(super) is_stuck: bool,
     /// `true` if the drive takes too much current.
@@ -63,7 +63,7 @@ pub(super) struct Axis {
     strength: f64,
     /// `true` for the elevation, the only axis that reports its limits as an alarm.
     has_limit_alarm: bool,
-    trouble: Trouble,
+    trouble: AxisTrouble,
     alarm: Option<AxisDrive>,
     stalled_s: f64,
 }
@@ -92,13 +92,13 @@ impl Axis {
             full_rate_counts_s: options.full_rate_counts_s,
             strength: 1.0,
             has_limit_alarm,
-            trouble: Trouble::default(),
+            trouble: AxisTrouble::default(),
             alarm: None,
             stalled_s: 0.0,
         }
     }
 
-    pub(super) fn set_trouble(&mut self, trouble: Trouble) {
+    pub(super) fn set_trouble(&mut self, trouble: AxisTrouble) {
         self.trouble = trouble;
     }
 

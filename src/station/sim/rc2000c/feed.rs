@@ -14,7 +14,7 @@ const POLAROTOR_TRAVEL: RangeInclusive<f64> = 0.0..=661.0;
 const ROTATING_TRAVEL: RangeInclusive<f64> = 11.0..=1012.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Goal {
+enum FeedGoal {
     Still,
     /// Jog with its remaining seconds; a positive sense is counter-clockwise.
     Jog(Sense, f64),
@@ -26,12 +26,12 @@ enum Goal {
 pub(super) struct Feed {
     is_rotating: bool,
     units: f64,
-    goal: Goal,
+    goal: FeedGoal,
 }
 
 impl Feed {
     pub(super) fn new(units: u16) -> Self {
-        Self { is_rotating: false, units: units.into(), goal: Goal::Still }
+        Self { is_rotating: false, units: units.into(), goal: FeedGoal::Still }
     }
 
     /// Selects a rotating feed or a polarotor.
@@ -59,19 +59,19 @@ impl Feed {
 
     /// Turns for a fixed time; a positive sense is counter-clockwise.
     pub(super) fn jog(&mut self, sense: Sense) {
-        self.goal = Goal::Jog(sense, JOG_S);
+        self.goal = FeedGoal::Jog(sense, JOG_S);
     }
 
     pub(super) fn go_to(&mut self, units: u16) {
-        self.goal = Goal::Position(units.into());
+        self.goal = FeedGoal::Position(units.into());
     }
 
     pub(super) fn motion(&self) -> PolarizationMotion {
         match self.goal {
-            Goal::Still => PolarizationMotion::Still,
-            Goal::Jog(Sense::Negative, _) => PolarizationMotion::JogClockwise,
-            Goal::Jog(Sense::Positive, _) => PolarizationMotion::JogCounterClockwise,
-            Goal::Position(_) => PolarizationMotion::ToStored,
+            FeedGoal::Still => PolarizationMotion::Still,
+            FeedGoal::Jog(Sense::Negative, _) => PolarizationMotion::JogClockwise,
+            FeedGoal::Jog(Sense::Positive, _) => PolarizationMotion::JogCounterClockwise,
+            FeedGoal::Position(_) => PolarizationMotion::ToStored,
         }
     }
 
@@ -96,19 +96,19 @@ impl Feed {
     pub(super) fn advance(&mut self, step_s: f64) {
         let max = RATE_UNITS_S * step_s;
         match &mut self.goal {
-            Goal::Still => {}
-            Goal::Jog(sense, left_s) => {
+            FeedGoal::Still => {}
+            FeedGoal::Jog(sense, left_s) => {
                 let turned = RATE_UNITS_S * step_s.min(*left_s);
                 *left_s -= step_s;
                 self.units += if *sense == Sense::Positive { turned } else { -turned };
                 if *left_s <= 0.0 {
-                    self.goal = Goal::Still;
+                    self.goal = FeedGoal::Still;
                 }
             }
-            Goal::Position(target) => {
+            FeedGoal::Position(target) => {
                 self.units += (*target - self.units).clamp(-max, max);
                 if (*target - self.units).abs() < 0.5 {
-                    self.goal = Goal::Still;
+                    self.goal = FeedGoal::Still;
                 }
             }
         }

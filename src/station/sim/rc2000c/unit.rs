@@ -8,7 +8,7 @@ mod report;
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-use super::axis::{Axis, Trouble};
+use super::axis::{Axis, AxisTrouble};
 use super::feed::Feed;
 use super::satellites::StoredSatellite;
 use super::tracking::Tracking;
@@ -104,12 +104,12 @@ impl Rc2000c {
     /// Applies the quirks and faults. Must be called after each change of them.
     pub(super) fn suffer(&mut self) {
         let has = |fault| self.faults.contains(&fault);
-        self.azimuth.set_trouble(Trouble {
+        self.azimuth.set_trouble(AxisTrouble {
             is_stuck: has(Fault::AzimuthJam),
             is_overloaded: has(Fault::AzimuthOvercurrent),
             runs_away: has(Fault::AzimuthRunaway),
         });
-        self.elevation.set_trouble(Trouble {
+        self.elevation.set_trouble(AxisTrouble {
             is_stuck: has(Fault::ElevationJam),
             is_overloaded: has(Fault::ElevationOvercurrent),
             runs_away: has(Fault::ElevationRunaway),

@@ -217,13 +217,13 @@ fn way_out_deg(judge: &BothWays, from_deg: [f64; 2], utc: jiff::Timestamp) -> Op
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Outcome {
+enum CaseOutcome {
     Refused,
     Allowed,
     LedOut,
 }
 
-fn look_closely(seed: u64) -> Outcome {
+fn look_closely(seed: u64) -> CaseOutcome {
     let mut dice = Dice::new(seed);
     let (antenna, mut station) = (antenna(&mut dice), station(&mut dice));
     station.antennas.clear();
@@ -246,7 +246,7 @@ fn look_closely(seed: u64) -> Outcome {
     let now = Moment { steady: measured_at(&case) + case.age, utc };
     gate.permit_exit(Some(now.steady + Duration::from_secs(1)));
     if gate.check(motion, intent, now).is_err() {
-        return Outcome::Refused;
+        return CaseOutcome::Refused;
     }
     let situation = gate.situation(intent, false, now);
     let (to_deg, is_hand) = match motion {
@@ -292,7 +292,7 @@ fn look_closely(seed: u64) -> Outcome {
             let end_deg = clear_deg(to_deg);
             assert!(end_deg > start_deg, "{seed}: {motion:?} leads from {start_deg} to {end_deg}");
         }
-        return Outcome::LedOut;
+        return CaseOutcome::LedOut;
     }
     // A go-to may begin inside only near the Sun, and must not approach it.
     let min_clear_deg = f64::min(start_deg, 0.0) - EDGE_DEG;
@@ -311,7 +311,7 @@ fn look_closely(seed: u64) -> Outcome {
             assert!(elevation_deg > floor_deg - EDGE_DEG, "{seed}: {motion:?} {elevation_deg}");
         }
     }
-    Outcome::Allowed
+    CaseOutcome::Allowed
 }
 
 fn measured_at(case: &Case) -> Instant {
@@ -325,9 +325,9 @@ fn any_motion_that_is_allowed_sweeps_nothing_forbidden() {
     let seed = number("AZEL_SEED").unwrap_or(20_261_122);
     // One of these cases costs a thousandth of a whole session.
     let cases = number("AZEL_CASES").map_or(2_000, |cases| cases * 10);
-    let outcomes: Vec<Outcome> = (seed..seed + cases).map(look_closely).collect();
+    let outcomes: Vec<CaseOutcome> = (seed..seed + cases).map(look_closely).collect();
     let count = |outcome| outcomes.iter().filter(|other| **other == outcome).count();
-    let (allowed, led_out) = (count(Outcome::Allowed), count(Outcome::LedOut));
+    let (allowed, led_out) = (count(CaseOutcome::Allowed), count(CaseOutcome::LedOut));
     println!("gate: {cases} cases from seed {seed}, {allowed} allowed, {led_out} led out");
     assert!(allowed > cases as usize / 20 && led_out > 0, "{allowed} allowed, {led_out} led out");
 }

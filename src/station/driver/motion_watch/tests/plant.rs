@@ -10,7 +10,7 @@ pub(super) const STEP_S: f64 = 0.02;
 
 /// Properties of an axis and of its unit.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Kind {
+pub(super) struct PlantKind {
     pub(super) travel_deg: (f64, f64),
     pub(super) rate_deg_s: f64,
     pub(super) starts_after_s: f64,
@@ -29,7 +29,7 @@ pub(super) struct Kind {
     pub(super) poll_s: f64,
 }
 
-impl Kind {
+impl PlantKind {
     pub(super) fn any(dice: &mut Dice) -> Self {
         let travels_deg = [
             (0.0, 360.0),
@@ -59,7 +59,7 @@ impl Kind {
     }
 }
 
-impl Kind {
+impl PlantKind {
     /// Reduces the coasting, which makes a drive hunt for a moving target.
     pub(super) fn follows_well(&mut self) {
         (self.coasts_s, self.runs_s, self.anticipates) = (self.coasts_s.min(0.3), 0.0, 1.0);
@@ -68,7 +68,7 @@ impl Kind {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Order {
+pub(super) enum PlantOrder {
     To(f64),
     /// Motion at a signed share of the rate, until a stop or the end of the travel.
     Run(f64),
@@ -77,12 +77,12 @@ pub(super) enum Order {
 
 #[derive(Debug, Clone)]
 pub(super) struct Plant {
-    pub(super) kind: Kind,
+    pub(super) kind: PlantKind,
     pub(super) now_s: f64,
     pub(super) deg: f64,
     rate_deg_s: f64,
-    waiting: VecDeque<(f64, Order)>,
-    order: Order,
+    waiting: VecDeque<(f64, PlantOrder)>,
+    order: PlantOrder,
     /// Direction of the running drive, and its start time.
     drive: Option<(f64, f64)>,
     /// Number of drive starts for this order.
@@ -93,14 +93,14 @@ pub(super) struct Plant {
 }
 
 impl Plant {
-    pub(super) fn new(kind: Kind, deg: f64) -> Self {
+    pub(super) fn new(kind: PlantKind, deg: f64) -> Self {
         Self {
             kind,
             now_s: 0.0,
             deg,
             rate_deg_s: 0.0,
             waiting: VecDeque::new(),
-            order: Order::Stop,
+            order: PlantOrder::Stop,
             drive: None,
             starts: 0,
             held_deg: None,
@@ -108,7 +108,7 @@ impl Plant {
         }
     }
 
-    pub(super) fn send(&mut self, order: Order) {
+    pub(super) fn send(&mut self, order: PlantOrder) {
         self.waiting.push_back((self.now_s + self.kind.starts_after_s, order));
     }
 
@@ -125,7 +125,7 @@ impl Plant {
         let orders =
             std::iter::once(self.order).chain(self.waiting.iter().map(|(_, order)| *order));
         orders
-            .filter_map(|order| if let Order::To(deg) = order { Some(deg) } else { None })
+            .filter_map(|order| if let PlantOrder::To(deg) = order { Some(deg) } else { None })
             .collect()
     }
 
@@ -147,9 +147,9 @@ impl Plant {
             0.0
         };
         let demand = match self.order {
-            Order::Stop => None,
-            Order::Run(share) => Some(share),
-            Order::To(to_deg) => {
+            PlantOrder::Stop => None,
+            PlantOrder::Run(share) => Some(share),
+            PlantOrder::To(to_deg) => {
                 let left_deg = to_deg - self.deg;
                 let goes_there = self.rate_deg_s * left_deg > 0.0;
                 let stops_deg = if goes_there { coasts_deg * self.kind.anticipates } else { 0.0 };
@@ -162,7 +162,7 @@ impl Plant {
             }
         };
         let runs_on = self.drive.filter(|(_, since_s)| {
-            self.now_s - since_s < self.kind.runs_s && self.order != Order::Stop
+            self.now_s - since_s < self.kind.runs_s && self.order != PlantOrder::Stop
         });
         // The unit gives up after three attempts.
         let demand = demand.filter(|_| self.drive.is_some() || self.starts < 3);
@@ -186,8 +186,8 @@ impl Plant {
         let next_deg = self.deg + self.rate_deg_s * STEP_S;
         if !(from_deg..=to_deg).contains(&next_deg) {
             self.rate_deg_s = 0.0;
-            if matches!(self.order, Order::Run(_)) {
-                self.order = Order::Stop;
+            if matches!(self.order, PlantOrder::Run(_)) {
+                self.order = PlantOrder::Stop;
             }
         }
         self.deg = next_deg.clamp(from_deg, to_deg);

@@ -21,7 +21,7 @@ const MAX_AGAIN: Duration = Duration::from_mins(10);
 /// Offsets of the unit's own track, and their current change.
 #[derive(Default)]
 pub(in crate::driver::session) struct Shifting {
-    step: Step,
+    step: ShiftStep,
     /// Offsets that the operator wants, until they take effect.
     requested: Option<TrackOffsets>,
     /// Previous values of `requested`, for undo, the oldest first.
@@ -39,7 +39,7 @@ pub(in crate::driver::session) struct Shifting {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) enum Step {
+pub(super) enum ShiftStep {
     #[default]
     None,
     /// Record on disk, in progress, of the unit's previous offsets and of its offsets with
@@ -51,7 +51,7 @@ pub(super) enum Step {
 
 /// Certainty of the unit's offsets after a change that did not read back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Certainty {
+pub(super) enum OffsetCertainty {
     Sure,
     /// Change that the unit may still apply.
     Unsure,
@@ -60,16 +60,16 @@ pub(super) enum Certainty {
 }
 
 impl Shifting {
-    pub(super) fn step(&self) -> Step {
+    pub(super) fn step(&self) -> ShiftStep {
         self.step
     }
 
     pub(super) fn is_idle(&self) -> bool {
-        self.step == Step::None
+        self.step == ShiftStep::None
     }
 
     pub(in crate::driver::session) fn is_writing(&self) -> bool {
-        matches!(self.step, Step::Writing { .. })
+        matches!(self.step, ShiftStep::Writing { .. })
     }
 
     pub(super) fn is_changing(&self) -> bool {
@@ -120,15 +120,15 @@ impl Shifting {
     }
 
     pub(super) fn begin_marking(&mut self, requested: TrackOffsets) {
-        self.step = Step::Marking { requested };
+        self.step = ShiftStep::Marking { requested };
     }
 
     pub(super) fn begin_writing(&mut self, ticket: u64) {
-        self.step = Step::Writing { ticket };
+        self.step = ShiftStep::Writing { ticket };
     }
 
     pub(super) fn end_step(&mut self) {
-        self.step = Step::None;
+        self.step = ShiftStep::None;
     }
 
     /// Clears the request, because the wanted offsets are in effect.
@@ -151,8 +151,8 @@ impl Shifting {
 
     /// Voids a change after a halt, unless the change is already on its way to the unit.
     pub(in crate::driver::session) fn void(&mut self, in_force: Option<TrackOffsets>) {
-        if let Step::Marking { .. } = self.step {
-            self.step = Step::None;
+        if let ShiftStep::Marking { .. } = self.step {
+            self.step = ShiftStep::None;
         }
         self.forget_request(in_force);
     }
@@ -160,9 +160,9 @@ impl Shifting {
     /// Ends a change after the loss of the link. Returns `false` without a current change.
     pub(super) fn lose(&mut self, now: Instant) -> bool {
         match std::mem::take(&mut self.step) {
-            Step::None => return false,
-            Step::Marking { .. } => {}
-            Step::Writing { .. } => self.doubt(now),
+            ShiftStep::None => return false,
+            ShiftStep::Marking { .. } => {}
+            ShiftStep::Writing { .. } => self.doubt(now),
         }
         true
     }
@@ -184,14 +184,14 @@ impl Shifting {
     }
 
     /// Ends a doubt whose time is over.
-    pub(super) fn certainty(&mut self, now: Instant) -> Certainty {
+    pub(super) fn certainty(&mut self, now: Instant) -> OffsetCertainty {
         match self.doubt_ends {
-            None => Certainty::Sure,
+            None => OffsetCertainty::Sure,
             Some(end) if end <= now => {
                 self.doubt_ends = None;
-                Certainty::MustRead
+                OffsetCertainty::MustRead
             }
-            Some(_) => Certainty::Unsure,
+            Some(_) => OffsetCertainty::Unsure,
         }
     }
 
@@ -236,7 +236,7 @@ impl Shifting {
 
     /// Returns the time of the next check whether the record is on disk.
     pub(in crate::driver::session) fn due(&self, now: Instant) -> Option<Instant> {
-        matches!(self.step, Step::Marking { .. }).then_some(now + LOOK)
+        matches!(self.step, ShiftStep::Marking { .. }).then_some(now + LOOK)
     }
 }
 
@@ -284,8 +284,8 @@ mod tests {
         let mut shifting = Shifting::default();
         shifting.begin_writing(1);
         assert!(shifting.lose(now) && !shifting.lose(now));
-        assert_eq!(shifting.certainty(now), Certainty::Unsure);
-        assert_eq!(shifting.certainty(now + APPLIED), Certainty::MustRead);
-        assert_eq!(shifting.certainty(now + APPLIED), Certainty::Sure);
+        assert_eq!(shifting.certainty(now), OffsetCertainty::Unsure);
+        assert_eq!(shifting.certainty(now + APPLIED), OffsetCertainty::MustRead);
+        assert_eq!(shifting.certainty(now + APPLIED), OffsetCertainty::Sure);
     }
 }

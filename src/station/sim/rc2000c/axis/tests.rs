@@ -87,13 +87,13 @@ fn a_limit_ends_a_jog_and_is_left_the_other_way() {
 #[test]
 fn a_stuck_axis_is_jammed_after_a_while_until_it_is_reset() {
     let mut axis = axis();
-    axis.set_trouble(Trouble { is_stuck: true, ..Trouble::default() });
+    axis.set_trouble(AxisTrouble { is_stuck: true, ..AxisTrouble::default() });
     axis.auto_move(1400);
     run(&mut axis, 0.9);
     assert_eq!(axis.drive(), AxisDrive::AutoMove);
     run(&mut axis, 0.2);
     assert_eq!((axis.drive(), axis.counts()), (AxisDrive::Jammed, 1000));
-    axis.set_trouble(Trouble::default());
+    axis.set_trouble(AxisTrouble::default());
     axis.auto_move(1400);
     run(&mut axis, 1.0);
     assert_eq!(axis.counts(), 1000);
@@ -106,13 +106,13 @@ fn a_stuck_axis_is_jammed_after_a_while_until_it_is_reset() {
 #[test]
 fn current_and_runaway_are_alarms_too() {
     let mut axis = axis();
-    axis.set_trouble(Trouble { is_overloaded: true, ..Trouble::default() });
+    axis.set_trouble(AxisTrouble { is_overloaded: true, ..AxisTrouble::default() });
     run(&mut axis, 1.0);
     assert_eq!(axis.drive(), AxisDrive::Still);
     axis.jog(Sense::Positive, Speed::Slow, 1.0);
     run(&mut axis, 0.1);
     assert_eq!(axis.drive(), AxisDrive::Overcurrent);
-    axis.set_trouble(Trouble { runs_away: true, ..Trouble::default() });
+    axis.set_trouble(AxisTrouble { runs_away: true, ..AxisTrouble::default() });
     run(&mut axis, 2.0);
     assert_eq!(axis.drive(), AxisDrive::Runaway);
     assert!(axis.counts() > 1010 && axis.is_turning());

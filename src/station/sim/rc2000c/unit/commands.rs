@@ -13,7 +13,7 @@ use crate::sim::rc2000c::{Fault, Mode, Quirk};
 const JOG_STEP_MS: u128 = 150;
 
 /// Error of a command that the unit cannot carry out.
-struct Refused;
+struct CommandRefused;
 
 impl Rc2000c {
     /// Answers a command if it needs an answer. Must be called after `advance`.
@@ -39,7 +39,7 @@ impl Rc2000c {
                 let entry = self.entry(index).map(Reply::SatelliteName);
                 return Some(entry.unwrap_or(Reply::Refused { code }));
             }
-            _ if self.faults.contains(&Fault::Refuse) => Err(Refused),
+            _ if self.faults.contains(&Fault::Refuse) => Err(CommandRefused),
             Request::Stop => {
                 self.stop();
                 Ok(())
@@ -49,7 +49,7 @@ impl Rc2000c {
         };
         Some(match outcome {
             Ok(()) => Reply::Status { command: request.command(), status: self.status() },
-            Err(Refused) => Reply::Refused { code },
+            Err(CommandRefused) => Reply::Refused { code },
         })
     }
 
@@ -76,7 +76,7 @@ impl Rc2000c {
         }
     }
 
-    fn start(&mut self, motion: Motion) -> Result<(), Refused> {
+    fn start(&mut self, motion: Motion) -> Result<(), CommandRefused> {
         match motion {
             Motion::AutoMove(auto_move) => self.auto_move(&auto_move),
             Motion::Jog(jog) => self.jog(jog),
@@ -90,18 +90,18 @@ impl Rc2000c {
                 Ok(())
             }
             Motion::ResetDrive(DriveReset::Polarization) if self.feed.is_rotating() => Ok(()),
-            Motion::ResetDrive(DriveReset::Polarization) => Err(Refused),
+            Motion::ResetDrive(DriveReset::Polarization) => Err(CommandRefused),
             Motion::RestartTracking => {
-                self.tracking.as_mut().ok_or(Refused)?.restart();
+                self.tracking.as_mut().ok_or(CommandRefused)?.restart();
                 Ok(())
             }
         }
     }
 
-    fn auto_move(&mut self, auto_move: &AutoMove) -> Result<(), Refused> {
+    fn auto_move(&mut self, auto_move: &AutoMove) -> Result<(), CommandRefused> {
         if let Some(position) = auto_move.to_polarization() {
             if self.is_auto_polarization || !self.feed.reaches(position.units()) {
-                return Err(Refused);
+                return Err(CommandRefused);
             }
             self.feed.go_to(position.units());
             return Ok(());
@@ -109,11 +109,11 @@ impl Rc2000c {
         if let Some((az_counts, el_counts)) = auto_move.to_position() {
             return self.go_to(az_counts, el_counts);
         }
-        let (name, polarity) = auto_move.to_satellite().ok_or(Refused)?;
+        let (name, polarity) = auto_move.to_satellite().ok_or(CommandRefused)?;
         let stored_satellite = self.satellites.iter().find(|satellite| satellite.name == name);
-        let satellite = *stored_satellite.ok_or(Refused)?;
+        let satellite = *stored_satellite.ok_or(CommandRefused)?;
         if polarity.is_some() && self.is_auto_polarization {
-            return Err(Refused);
+            return Err(CommandRefused);
         }
         self.go_to(satellite.az_counts, satellite.el_counts)?;
         // The manual does not say which polarization the automatic mode selects.
@@ -128,9 +128,9 @@ impl Rc2000c {
         Ok(())
     }
 
-    fn go_to(&mut self, az_counts: u16, el_counts: u16) -> Result<(), Refused> {
+    fn go_to(&mut self, az_counts: u16, el_counts: u16) -> Result<(), CommandRefused> {
         if !self.azimuth.reaches(az_counts) || !self.elevation.reaches(el_counts) {
-            return Err(Refused);
+            return Err(CommandRefused);
         }
         self.end_tracking();
         self.next_tracking = None;
@@ -139,7 +139,7 @@ impl Rc2000c {
         Ok(())
     }
 
-    fn jog(&mut self, jog: Jog) -> Result<(), Refused> {
+    fn jog(&mut self, jog: Jog) -> Result<(), CommandRefused> {
         let (is_azimuth, sense) = match jog.direction() {
             Direction::CounterClockwise => (true, Sense::Negative),
             Direction::Clockwise => (true, Sense::Positive),
@@ -148,7 +148,7 @@ impl Rc2000c {
         };
         let spares_tracking = self.quirks.contains(&Quirk::StopSparesTracking);
         if spares_tracking && self.tracking.as_ref().is_some_and(Tracking::is_peaking) {
-            return Err(Refused);
+            return Err(CommandRefused);
         }
         if !spares_tracking {
             self.end_tracking();
@@ -160,7 +160,7 @@ impl Rc2000c {
             (&mut self.elevation, &mut self.azimuth)
         };
         if axis.limit() == Some(sense) && self.quirks.contains(&Quirk::RefuseAtLimit) {
-            return Err(Refused);
+            return Err(CommandRefused);
         }
         // The unit jogs one axis at a time.
         other.stop();
@@ -169,11 +169,13 @@ impl Rc2000c {
         Ok(())
     }
 
-    fn turn(&mut self, polarization_move: PolarizationMove) -> Result<(), Refused> {
+    fn turn(&mut self, polarization_move: PolarizationMove) -> Result<(), CommandRefused> {
         let is_peaking = self.tracking.as_ref().is_some_and(Tracking::is_peaking);
         let sense = match polarization_move {
-            _ if self.is_auto_polarization => return Err(Refused),
-            PolarizationMove::ToStored(_) if self.satellites.is_empty() => return Err(Refused),
+            _ if self.is_auto_polarization => return Err(CommandRefused),
+            PolarizationMove::ToStored(_) if self.satellites.is_empty() => {
+                return Err(CommandRefused);
+            }
             PolarizationMove::ToStored(polarity) => {
                 match &mut self.tracking {
                     Some(tracking) if is_peaking => tracking.waiting = Some(polarity),
@@ -181,7 +183,7 @@ impl Rc2000c {
                 }
                 return Ok(());
             }
-            _ if is_peaking => return Err(Refused),
+            _ if is_peaking => return Err(CommandRefused),
             PolarizationMove::JogClockwise => Sense::Negative,
             PolarizationMove::JogCounterClockwise => Sense::Positive,
         };
@@ -195,7 +197,7 @@ impl Rc2000c {
         }
     }
 
-    fn set(&mut self, setting: Setting) -> Result<(), Refused> {
+    fn set(&mut self, setting: Setting) -> Result<(), CommandRefused> {
         match setting {
             Setting::AutoPolarization(is_on) => self.is_auto_polarization = is_on,
             Setting::Band(band) => self.set_band(band)?,
@@ -203,9 +205,9 @@ impl Rc2000c {
         Ok(())
     }
 
-    fn set_band(&mut self, band: Band) -> Result<(), Refused> {
+    fn set_band(&mut self, band: Band) -> Result<(), CommandRefused> {
         let tracking = self.tracking.as_mut().filter(|tracking| tracking.is_dual_band);
-        tracking.ok_or(Refused)?.band = band;
+        tracking.ok_or(CommandRefused)?.band = band;
         Ok(())
     }
 }
