@@ -203,7 +203,7 @@ pub fn show(
             }
         }
     } else {
-        card::none(ui, areas.card, model, commands);
+        card::show_placeholder(ui, areas.card, model, commands);
     }
     for line in areas.dividers() {
         ui.painter().rect_filled(line, 0.0, t.line);

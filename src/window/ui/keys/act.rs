@@ -288,12 +288,12 @@ impl OffsetKey {
         let [time, ..] = self.offsets(antenna)?.components();
         Some(match self {
             Self::Time { is_more } => {
-                let step = OffsetStep::Medium.of(time);
+                let step = OffsetStep::Medium.to_offset(time);
                 OffsetChange::Step(if is_more { step } else { -step })
             }
             Self::TimeToZero => OffsetChange::Step(-time),
-            Self::Less(offset) => OffsetChange::Step(-step.of(offset)),
-            Self::More(offset) => OffsetChange::Step(step.of(offset)),
+            Self::Less(offset) => OffsetChange::Step(-step.to_offset(offset)),
+            Self::More(offset) => OffsetChange::Step(step.to_offset(offset)),
             Self::Undo => OffsetChange::Undo,
         })
     }

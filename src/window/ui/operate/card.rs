@@ -70,13 +70,13 @@ pub struct CardState {
     /// Fold of the actions of the make.
     more_fold: Fold,
     /// Flag: the card hides content below its edge.
-    goes_on_below: bool,
+    has_more_below: bool,
     /// Open lock-out dialog.
     maintenance: Option<MaintenanceDialog>,
-    standing: HoldState,
-    unseen: HoldState,
-    way_out: HoldState,
-    unguarded: HoldState,
+    standing_hold: HoldState,
+    unseen_hold: HoldState,
+    way_out_hold: HoldState,
+    unguarded_hold: HoldState,
     more: MoreState,
 }
 
@@ -90,16 +90,16 @@ impl CardState {
         self.more_fold.forget_height();
         self.offsets.fold.forget_height();
         self.maintenance = None;
-        self.standing = HoldState::default();
-        self.unseen = HoldState::default();
-        self.way_out = HoldState::default();
-        self.unguarded = HoldState::default();
+        self.standing_hold = HoldState::default();
+        self.unseen_hold = HoldState::default();
+        self.way_out_hold = HoldState::default();
+        self.unguarded_hold = HoldState::default();
     }
 
     /// Releases a held jog key when the card of `antenna` disappears.
     pub fn hide(&mut self, antenna: Option<AntennaId>, commands: &mut Vec<UiCommand>) {
         self.maintenance = None;
-        if self.drive.let_go() {
+        if self.drive.release_key() {
             commands.extend(antenna.map(|antenna| UiCommand::antenna(antenna, Command::EndJog)));
         }
     }
@@ -116,7 +116,7 @@ struct Card<'a> {
 
 impl Card<'_> {
     /// Queues a command for the session of the antenna.
-    fn ask(&mut self, command: Command) {
+    fn queue(&mut self, command: Command) {
         self.commands.push(UiCommand::antenna(self.antenna.id(), command));
     }
 }
@@ -161,7 +161,7 @@ impl Cursor {
         self.skip(if self.is_short() { short } else { full });
     }
 
-    fn at(&self) -> Pos2 {
+    fn position(&self) -> Pos2 {
         pos2(self.left, self.y)
     }
 
@@ -189,81 +189,94 @@ pub(super) fn show(
     commands: &mut Vec<UiCommand>,
 ) {
     let in_replay = replay::locked(&antenna.config.name);
-    let locks = Locks::of(model, antenna, &in_replay);
+    let locks = Locks::new(model, antenna, &in_replay);
     let mut card = Card { model, antenna, locks, question: &mut *question, commands };
     let builder = UiBuilder::new().id_salt(("card", &antenna.config.name)).max_rect(rect);
     ui.scope_builder(builder, |ui| {
-        let mut at = Cursor::new(rect);
-        upper(ui, &mut at, &mut card, live, state);
-        lower::show(ui, &mut at, &mut card, on_cards, state);
+        let mut cursor = Cursor::new(rect);
+        show_upper_part(ui, &mut cursor, &mut card, live, state);
+        lower::show(ui, &mut cursor, &mut card, on_cards, state);
     });
     MaintenanceDialog::show(&mut state.maintenance, ui, model, antenna, question, commands);
 }
 
 /// Draws the part that always stays in sight.
-fn upper(
+fn show_upper_part(
     ui: &mut Ui,
-    at: &mut Cursor,
+    cursor: &mut Cursor,
     card: &mut Card<'_>,
     live: Option<&Model>,
     state: &mut CardState,
 ) {
     let (model, antenna) = (card.model, card.antenna);
     let t = theme::tokens(ui);
-    ui.painter().vline(at.card.left() + 0.5, at.card.y_range(), (1.0, t.line));
-    header::show(ui, at, card, &mut state.maintenance);
+    ui.painter().vline(cursor.card.left() + 0.5, cursor.card.y_range(), (1.0, t.line));
+    header::show(ui, cursor, card, &mut state.maintenance);
 
-    at.skip_by_room(10.0, 12.0);
-    let offered = offer::offer(antenna);
-    let foot = if offered.is_some() { offer::HEIGHT } else { 0.0 };
-    let block = state_sentence(model, antenna)
-        .with_sentence(|sentence| sentence::show(ui, at.at(), at.width(), foot, sentence));
-    if let Some(offered) = offered {
-        offer::show(ui, block, offered, card.commands);
+    cursor.skip_by_room(10.0, 12.0);
+    let offer = offer::available_offer(antenna);
+    let foot_height = if offer.is_some() { offer::HEIGHT } else { 0.0 };
+    let block = state_sentence(model, antenna).with_sentence(|sentence| {
+        sentence::show(ui, cursor.position(), cursor.width(), foot_height, sentence)
+    });
+    if let Some(offer) = offer {
+        offer::show(ui, block, offer, card.commands);
     }
-    at.y = block.bottom();
-    at.skip_by_room(6.0, 10.0);
-    automatic::show(ui, at, model, antenna, card.commands);
-    lock_out::band(ui, at, antenna, &mut state.maintenance);
+    cursor.y = block.bottom();
+    cursor.skip_by_room(6.0, 10.0);
+    automatic::show(ui, cursor, model, antenna, card.commands);
+    lock_out::show_band(ui, cursor, antenna, &mut state.maintenance);
     if header::is_released(antenna) {
-        released::show(ui, at, card);
+        released::show(ui, cursor, card);
     }
 
-    axes::show(ui, at, model, antenna);
+    axes::show(ui, cursor, model, antenna);
     // Keep the bar without a prediction: the keys below must not jump.
     let error_deg = antenna.error().map(|error| error.off_beam.degrees());
     let half_beam_deg = antenna.config.beam_width_deg / 2.0;
-    beam_bar::show(ui, at.take(beam_bar::HEIGHT), error_deg, half_beam_deg);
-    if !at.is_short() {
-        travel::show(ui, at, &travel::gauges(antenna));
+    beam_bar::show(ui, cursor.take(beam_bar::HEIGHT), error_deg, half_beam_deg);
+    if !cursor.is_short() {
+        travel::show(ui, cursor, &travel::gauges(antenna));
     }
 
-    at.skip_by_room(6.0, 12.0);
-    if !at.is_short() {
-        let head = at.take(20.0);
+    cursor.skip_by_room(6.0, 12.0);
+    if !cursor.is_short() {
+        let head = cursor.take(20.0);
         paint::text(ui, head.left_top(), Align2::LEFT_TOP, "Mode", text::caption(), t.t3);
     }
-    modes::show(ui, at.take(32.0), card, &mut state.track);
-    track::row(ui, at, card, state);
-    at.skip_by_room(6.0, 12.0);
+    modes::show(ui, cursor.take(32.0), card, &mut state.track);
+    track::show_row(ui, cursor, card, state);
+    cursor.skip_by_room(6.0, 12.0);
     match live {
-        Some(live) => live::show(ui, at, live),
-        None => drive::show(ui, at, card, &mut state.drive),
+        Some(live) => live::show(ui, cursor, live),
+        None => drive::show(ui, cursor, card, &mut state.drive),
     }
 }
 
 /// Shows a sentence behind its mark.
-fn remark(ui: &Ui, at: &mut Cursor, salt: impl AsIdSalt, icon: Icon, colour: Color32, words: &str) {
-    let mark = paint::square(at.at() + vec2(7.0, 8.0), 13.0);
+fn show_remark(
+    ui: &Ui,
+    cursor: &mut Cursor,
+    salt: impl AsIdSalt,
+    icon: Icon,
+    colour: Color32,
+    words: &str,
+) {
+    let mark = paint::square(cursor.position() + vec2(7.0, 8.0), 13.0);
     icons::paint(ui.painter(), mark, icon, colour);
-    let start = at.at() + vec2(20.0, 0.0);
-    let taken = paint::paragraph(ui, start, at.width() - 20.0, words, text::small(), colour);
-    paint::name_text(ui, salt, taken, words);
-    at.y = taken.bottom();
+    let start = cursor.position() + vec2(20.0, 0.0);
+    let place = paint::paragraph(ui, start, cursor.width() - 20.0, words, text::small(), colour);
+    paint::name_text(ui, salt, place, words);
+    cursor.y = place.bottom();
 }
 
 /// Draws the placeholder of the card while there is no antenna.
-pub(super) fn none(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
+pub(super) fn show_placeholder(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    commands: &mut Vec<UiCommand>,
+) {
     if model.demo && !matches!(model.catalog, CatalogState::Failed) {
         let (t, inner) = (theme::tokens(ui), rect.shrink(16.0));
         let words = "The simulated antennas are starting.";

@@ -143,7 +143,7 @@ pub(super) fn shown<'a>(antenna: &'a AntennaModel, state: &OperateState) -> Opti
 /// Returns the sentence of the note, and `true` if Azel can send the antenna there.
 fn found(model: &Model, antenna: &AntennaModel, target: Target) -> (String, bool) {
     let in_replay = replay::locked(&antenna.config.name);
-    if let Some(lock) = Locks::of(model, antenna, &in_replay).track {
+    if let Some(lock) = Locks::new(model, antenna, &in_replay).track {
         return (lock.to_owned(), false);
     }
     let way = match judged(antenna, target).map(|preview| &preview.way) {

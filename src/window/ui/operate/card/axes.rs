@@ -34,23 +34,24 @@ fn wanted_column(antenna: &AntennaModel) -> WantedColumn {
 
 /// Returns azimuth and elevation, degrees.
 fn in_degrees(pointing: Option<Pointing>) -> [Option<f64>; 2] {
-    let azimuth = pointing.and_then(|at| at.azimuth).map(Angle::wrapped_360);
-    [azimuth, pointing.and_then(|at| at.elevation)].map(|angle| angle.map(Angle::degrees))
+    let azimuth = pointing.and_then(|pointing| pointing.azimuth).map(Angle::wrapped_360);
+    [azimuth, pointing.and_then(|pointing| pointing.elevation)]
+        .map(|angle| angle.map(Angle::degrees))
 }
 
 /// Returns the direction in which the antenna is to point, degrees, and the decimals to show.
 pub(super) fn commanded(model: &Model, antenna: &AntennaModel) -> ([Option<f64>; 2], usize) {
     let predicted = model.appearance.angle_decimals as usize;
-    let of_unit = format::decimals(antenna.variant().capabilities, predicted);
-    (in_degrees(demanded(antenna)), wanted_column(antenna).decimals(of_unit, predicted))
+    let unit_decimals = format::decimals(antenna.variant().capabilities, predicted);
+    (in_degrees(demanded(antenna)), wanted_column(antenna).decimals(unit_decimals, predicted))
 }
 
 /// Shows the table of the axes.
-pub(super) fn show(ui: &Ui, at: &mut Cursor, model: &Model, antenna: &AntennaModel) {
-    let can = antenna.variant().capabilities;
+pub(super) fn show(ui: &Ui, cursor: &mut Cursor, model: &Model, antenna: &AntennaModel) {
+    let capabilities = antenna.variant().capabilities;
     let (is_live, measured) = (antenna.is_live(), antenna.snapshot.state.measured);
     let (demanded, actual) = (demanded(antenna), measured.map(|measured| measured.pointing));
-    let off = |angle: fn(Pointing) -> Option<Angle>| {
+    let error_deg = |angle: fn(Pointing) -> Option<Angle>| {
         let (demanded, actual) = demanded.zip(actual).filter(|_| is_live)?;
         Some((angle(actual)? - angle(demanded)?).wrapped_180().degrees())
     };
@@ -61,18 +62,18 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, model: &Model, antenna: &AntennaMod
         name: "Az",
         wanted_deg: wanted_az,
         actual_deg: actual_az,
-        error_deg: off(|at| at.azimuth),
+        error_deg: error_deg(|pointing| pointing.azimuth),
         rate_deg_s: rates.map(|(azimuth, _)| azimuth),
     };
     let elevation = AxisRow {
         name: "El",
         wanted_deg: wanted_el,
         actual_deg: actual_el,
-        error_deg: off(|at| at.elevation),
+        error_deg: error_deg(|pointing| pointing.elevation),
         rate_deg_s: rates.map(|(_, elevation)| elevation),
     };
     let rows = [azimuth, elevation];
-    let axes = if can.has_elevation() { &rows[..] } else { &rows[..1] };
+    let axes = if capabilities.has_elevation() { &rows[..] } else { &rows[..1] };
     let age = measured.filter(|_| !is_live).map(|measured| {
         let age = model.steady.saturating_duration_since(measured.requested);
         format::age(age.as_secs_f64())
@@ -80,22 +81,22 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, model: &Model, antenna: &AntennaMod
     let predicted_decimals = model.appearance.angle_decimals as usize;
     let table = AxesTable {
         wanted_column: wanted_column(antenna),
-        decimals: format::decimals(can, predicted_decimals),
+        decimals: format::decimals(capabilities, predicted_decimals),
         predicted_decimals,
         age: age.as_deref(),
         axes,
     };
-    axes_table::show(ui, at.take(axes_table::height(axes.len())), &table);
+    axes_table::show(ui, cursor.take(axes_table::height(axes.len())), &table);
 }
 
 /// Returns the pair of axes that the jog keys turn.
 pub(super) fn keys(antenna: &AntennaModel) -> JogKeys {
-    let can = antenna.variant().capabilities;
-    match (antenna.config.mount, can.second_axis) {
+    let capabilities = antenna.variant().capabilities;
+    match (antenna.config.mount, capabilities.second_axis) {
         (Mount::Xy { lower_axis_azimuth_deg, .. }, _) => xy_keys(lower_axis_azimuth_deg),
         (Mount::AzEl { .. }, SecondAxis::Elevation) => JogKeys::AzEl,
         (Mount::AzEl { .. }, SecondAxis::Other(_)) => {
-            let [_, name] = can.axes;
+            let [_, name] = capabilities.axes;
             JogKeys::AzOther(name)
         }
         (Mount::AzEl { .. }, SecondAxis::Absent) => JogKeys::Az,
@@ -116,28 +117,29 @@ fn xy_keys(lower_axis_azimuth_deg: f64) -> JogKeys {
 /// Returns the blocked directions: a limit switch is set, or the axis is absent or has no known
 /// angle.
 pub(super) fn blocked(antenna: &AntennaModel) -> Vec<JogDirection> {
-    let can = antenna.variant().capabilities;
+    let capabilities = antenna.variant().capabilities;
     let Some(measured) = antenna.snapshot.state.measured else { return Vec::new() };
-    let unseen = measured.axes.map(|axis| axis.angle_deg.is_none() && !can.ends_jogs);
+    let is_unknown = measured.axes.map(|axis| axis.angle_deg.is_none() && !capabilities.ends_jogs);
     let [x, y] = measured.axes;
-    let [x_unseen, y_unseen] = unseen;
-    let y_unseen = y_unseen || can.second_axis == SecondAxis::Absent;
+    let [x_unknown, y_unknown] = is_unknown;
+    let y_unknown = y_unknown || capabilities.second_axis == SecondAxis::Absent;
     [
-        (x.plus_limit || x_unseen, JogDirection::XPlus),
-        (x.minus_limit || x_unseen, JogDirection::XMinus),
-        (y.plus_limit || y_unseen, JogDirection::YPlus),
-        (y.minus_limit || y_unseen, JogDirection::YMinus),
+        (x.plus_limit || x_unknown, JogDirection::XPlus),
+        (x.minus_limit || x_unknown, JogDirection::XMinus),
+        (y.plus_limit || y_unknown, JogDirection::YPlus),
+        (y.minus_limit || y_unknown, JogDirection::YMinus),
     ]
     .into_iter()
-    .filter_map(|(set, direction)| set.then_some(direction))
+    .filter_map(|(is_blocked, direction)| is_blocked.then_some(direction))
     .collect()
 }
 
 /// Returns a sentence about the axes that the operator cannot jog because their angle is unknown.
-pub(super) fn unseen(antenna: &AntennaModel) -> Option<String> {
-    let can = antenna.variant().capabilities;
-    let measured = antenna.snapshot.state.measured.filter(|_| !can.ends_jogs)?;
-    let axis = match (measured.axes.map(|axis| axis.angle_deg.is_none()), can.second_axis) {
+pub(super) fn unknown_axis_note(antenna: &AntennaModel) -> Option<String> {
+    let capabilities = antenna.variant().capabilities;
+    let measured = antenna.snapshot.state.measured.filter(|_| !capabilities.ends_jogs)?;
+    let axis = match (measured.axes.map(|axis| axis.angle_deg.is_none()), capabilities.second_axis)
+    {
         ([false, false], _) | ([false, _], SecondAxis::Absent) => return None,
         ([true, true], SecondAxis::Elevation | SecondAxis::Other(_)) => {
             return Some("No angle is known, so neither axis can be turned by hand.".to_owned());
@@ -152,10 +154,10 @@ pub(super) fn unseen(antenna: &AntennaModel) -> Option<String> {
 
 /// Returns the signed rate of the jogged axis, degrees per second: measured for named speeds,
 /// otherwise as commanded.
-pub(super) fn rate_of_jog(antenna: &AntennaModel) -> Option<f64> {
-    let can = antenna.variant().capabilities;
+pub(super) fn jog_rate_deg_s(antenna: &AntennaModel) -> Option<f64> {
+    let capabilities = antenna.variant().capabilities;
     let jog = antenna.snapshot.jog?;
-    if can.jog == JogSpeeds::AnyRate {
+    if capabilities.jog == JogSpeeds::AnyRate {
         let measured = antenna.snapshot.state.measured?;
         return jog
             .into_iter()
@@ -165,5 +167,5 @@ pub(super) fn rate_of_jog(antenna: &AntennaModel) -> Option<f64> {
     }
     let (azimuth, elevation) = antenna.rates_deg_s?;
     let [x, _] = jog;
-    if x == 0.0 { can.has_elevation().then_some(elevation) } else { Some(azimuth) }
+    if x == 0.0 { capabilities.has_elevation().then_some(elevation) } else { Some(azimuth) }
 }

@@ -60,14 +60,14 @@ pub(super) struct Faults<'a> {
 }
 
 impl<'a> Faults<'a> {
-    pub(super) fn of(model: &Model, antenna: &'a AntennaModel) -> Option<Self> {
+    pub(super) fn from_antenna(model: &Model, antenna: &'a AntennaModel) -> Option<Self> {
         let state = &antenna.snapshot.state;
         (!state.checks.is_empty()).then(|| Self {
             is_known: antenna.answers(model.steady).is_current(),
             checks: &state.checks,
             checked_at: state
                 .checked_at
-                .map_or_else(String::new, |at| format::moment(at, model.now)),
+                .map_or_else(String::new, |time| format::moment(time, model.now)),
         })
     }
 }
@@ -108,20 +108,20 @@ impl Faults<'_> {
             let rows = self.checks.iter().filter(|check| check.state == worst);
             rows.map(|check| check.name).collect::<Vec<_>>().join(", ")
         };
-        let at = if self.checked_at.is_empty() {
+        let time = if self.checked_at.is_empty() {
             String::new()
         } else {
             format!(", {}", self.checked_at)
         };
         match (worst, self.count(worst)) {
-            (CheckState::Good, 1) => ("No faults".into(), format!("The only check passed{at}")),
-            (CheckState::Good, _) => ("No faults".into(), format!("All {all} checks passed{at}")),
+            (CheckState::Good, 1) => ("No faults".into(), format!("The only check passed{time}")),
+            (CheckState::Good, _) => ("No faults".into(), format!("All {all} checks passed{time}")),
             (CheckState::Unknown, 1) if all == 1 => {
-                ("Not known".into(), format!("The only check has no answer{at}"))
+                ("Not known".into(), format!("The only check has no answer{time}"))
             }
             (CheckState::Unknown, count) => {
                 let verb = if count == 1 { "has" } else { "have" };
-                ("Not known".into(), format!("{count} of {all} checks {verb} no answer{at}"))
+                ("Not known".into(), format!("{count} of {all} checks {verb} no answer{time}"))
             }
             (CheckState::Caution, 1) => ("1 caution".into(), named()),
             (CheckState::Caution, count) => (format!("{count} cautions"), named()),
@@ -131,7 +131,7 @@ impl Faults<'_> {
     }
 
     /// Returns the result for the folded line.
-    pub(super) fn in_words(&self, ui: &Ui) -> (String, (Icon, Color32)) {
+    pub(super) fn folded_summary(&self, ui: &Ui) -> (String, (Icon, Color32)) {
         let worst = self.worst();
         let (good, all) = (self.count(CheckState::Good), self.checks.len());
         let words = match worst {
@@ -146,11 +146,11 @@ impl Faults<'_> {
     }
 
     /// Shows the line of the checks with its button.
-    pub(super) fn show(&self, ui: &Ui, at: &mut Cursor) {
+    pub(super) fn show(&self, ui: &Ui, cursor: &mut Cursor) {
         let t = theme::tokens(ui);
-        let row = at.take(47.0);
+        let row = cursor.take(47.0);
         for y in [row.top(), row.bottom()] {
-            ui.painter().hline(at.card.x_range(), y, (1.0, t.line));
+            ui.painter().hline(cursor.card.x_range(), y, (1.0, t.line));
         }
         let worst = self.worst();
         let colour = colour(worst, t);
@@ -174,12 +174,12 @@ impl Faults<'_> {
             .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
             .accessible_name("Checks")
             .show(|ui| {
-                self.list(ui);
+                self.show_list(ui);
                 close_key::show(ui);
             });
     }
 
-    fn list(&self, ui: &mut Ui) {
+    fn show_list(&self, ui: &mut Ui) {
         let t = theme::tokens(ui);
         ui.spacing_mut().item_spacing.y = 0.0;
         for (index, check) in self.checks.iter().enumerate() {
@@ -202,16 +202,23 @@ impl Faults<'_> {
             let was_reported = !self.is_known && check.state != CheckState::Unknown;
             let last = if was_reported { "last " } else { "" };
             let result = format!("{last}{}", word(check.state));
-            let at = pos2(row.left() + 26.0, y);
-            paint::text(ui, at, Align2::LEFT_CENTER, check.name, text::body_medium(), t.t1);
-            let at = pos2(row.right() - 4.0, y);
+            let name_position = pos2(row.left() + 26.0, y);
+            paint::text(
+                ui,
+                name_position,
+                Align2::LEFT_CENTER,
+                check.name,
+                text::body_medium(),
+                t.t1,
+            );
+            let result_position = pos2(row.right() - 4.0, y);
             let font = text::sized(12.0, Weight::Medium);
-            paint::text(ui, at, Align2::RIGHT_CENTER, &result, font, colour);
+            paint::text(ui, result_position, Align2::RIGHT_CENTER, &result, font, colour);
             if let Some(galley) = galley {
                 ui.painter().galley(pos2(row.left() + 26.0, row.top() + 24.0), galley, t.t2);
             }
-            let said = advice.unwrap_or_default();
-            let name = format!("{}: {result}. {said}", check.name);
+            let advice = advice.unwrap_or_default();
+            let name = format!("{}: {result}. {advice}", check.name);
             paint::name_text(ui, ("check", check.name), row, name.trim_end());
         }
     }
@@ -230,32 +237,32 @@ mod tests {
         let good = check("Power", CheckState::Good);
         let fault = check("Drive X", CheckState::Fault);
         let unknown = check("Clock", CheckState::Unknown);
-        let of = |checks: &[Check]| {
+        let summary = |checks: &[Check]| {
             Faults { is_known: true, checks, checked_at: "11:06:08Z".into() }.summary()
         };
         assert_eq!(
-            of(&[good.clone(), good.clone()]),
+            summary(&[good.clone(), good.clone()]),
             ("No faults".into(), "All 2 checks passed, 11:06:08Z".into())
         );
         assert_eq!(
-            of(&[good.clone(), unknown.clone(), fault]),
+            summary(&[good.clone(), unknown.clone(), fault]),
             ("1 fault".into(), "Drive X".into())
         );
         let silent = ("Not known".into(), "1 of 2 checks has no answer, 11:06:08Z".into());
-        assert_eq!(of(&[good.clone(), unknown.clone()]), silent);
+        assert_eq!(summary(&[good.clone(), unknown.clone()]), silent);
         let alone = ("Not known".into(), "The only check has no answer, 11:06:08Z".into());
-        assert_eq!(of(&[unknown]), alone);
-        assert_eq!(of(&[good]).1, "The only check passed, 11:06:08Z");
+        assert_eq!(summary(&[unknown]), alone);
+        assert_eq!(summary(&[good]).1, "The only check passed, 11:06:08Z");
     }
 
     #[test]
     fn without_an_answer_nothing_is_known_and_the_last_report_is_told_as_such() {
         let checks = [check("Power", CheckState::Good), check("Drive X", CheckState::Fault)];
-        let of = |checks| Faults { is_known: false, checks, checked_at: "11:06:08Z".into() };
-        let silent = of(&checks);
+        let faults = |checks| Faults { is_known: false, checks, checked_at: "11:06:08Z".into() };
+        let silent = faults(&checks);
         assert_eq!(silent.summary(), ("Not known".into(), "Last report 11:06:08Z: 1 fault".into()));
         assert_eq!(silent.worst(), CheckState::Unknown);
-        let good = of(&checks[..1]).summary();
+        let good = faults(&checks[..1]).summary();
         assert_eq!(good.1, "Last report 11:06:08Z: no faults");
     }
 }

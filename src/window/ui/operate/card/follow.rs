@@ -31,13 +31,13 @@ enum FollowChoice {
     Direction(Target),
 }
 
-/// Shows the button in `rect`. `typed` is the direction in the go-to fields. Sets `asks_sun` when
-/// the operator chose the Sun, which takes a hold.
+/// Shows the button in `rect`. `go_to_target` is the direction in the go-to fields. Sets `asks_sun`
+/// when the operator chose the Sun, which takes a hold.
 pub(super) fn show(
     ui: &Ui,
     rect: Rect,
     card: &mut Card<'_>,
-    typed: Option<Target>,
+    go_to_target: Option<Target>,
     asks_sun: &mut bool,
 ) {
     let t = theme::tokens(ui);
@@ -53,12 +53,12 @@ pub(super) fn show(
             ("Follow the Sun".to_owned(), FollowChoice::Sun),
             ("Follow the Moon".to_owned(), FollowChoice::Moon),
         ];
-        let can = card.antenna.variant().capabilities;
+        let capabilities = card.antenna.variant().capabilities;
         let measured = card.antenna.snapshot.state.measured;
-        let here = measured.and_then(|measured| target(measured.pointing));
+        let current = measured.and_then(|measured| target(measured.pointing));
         let directions = [
-            ("Keep pointing at", here, format::decimals(can, 1)),
-            ("Follow the typed direction", typed, 1),
+            ("Keep pointing at", current, format::decimals(capabilities, 1)),
+            ("Follow the typed direction", go_to_target, 1),
         ];
         for (words, direction, decimals) in directions {
             choices.extend(direction.map(|target| {
@@ -66,7 +66,7 @@ pub(super) fn show(
             }));
         }
         // Offer the satellite as well: Track would use the unit's own program.
-        if let Some(predicted) = card.model.selected_pass().filter(|_| can.has_program) {
+        if let Some(predicted) = card.model.selected_pass().filter(|_| capabilities.has_program) {
             let satellite = predicted.satellite.short_name();
             let words = format!("Follow {satellite} position by position, from here");
             choices.insert(0, (words, FollowChoice::Selected));
@@ -98,12 +98,12 @@ fn follow(card: &mut Card<'_>, choice: FollowChoice) {
             plan::Target::Fixed(AzEl::from_degrees(azimuth_deg, elevation_deg))
         }
     };
-    card.ask(Command::ProgramTrack(program_track(card, target)));
+    card.queue(Command::ProgramTrack(program_track(card, target)));
 }
 
 /// Follows the Sun, with Sun avoidance lifted.
 pub(super) fn follow_into_sun(card: &mut Card<'_>) {
-    card.ask(Command::ProgramTrackIntoSun(program_track(card, plan::Target::Sun)));
+    card.queue(Command::ProgramTrackIntoSun(program_track(card, plan::Target::Sun)));
 }
 
 fn program_track(card: &Card<'_>, target: plan::Target) -> Box<ProgramTrack> {
@@ -121,6 +121,6 @@ fn target(pointing: Pointing) -> Option<Target> {
 /// Formats a target like the fields: azimuth, and elevation if there is one.
 fn in_words(target: Target, decimals: usize) -> String {
     let angles = [Some(target.azimuth_deg), target.elevation_deg];
-    let known = angles.into_iter().flatten().map(|angle_deg| format::degrees(angle_deg, decimals));
-    known.collect::<Vec<_>>().join(", ")
+    let texts = angles.into_iter().flatten().map(|angle_deg| format::degrees(angle_deg, decimals));
+    texts.collect::<Vec<_>>().join(", ")
 }

@@ -17,15 +17,15 @@ use crate::{
 };
 
 /// Shows the band below the sentence, with the button that opens the dialog to end the lock-out.
-pub(super) fn band(
+pub(super) fn show_band(
     ui: &Ui,
-    at: &mut Cursor,
+    cursor: &mut Cursor,
     antenna: &AntennaModel,
     maintenance: &mut Option<MaintenanceDialog>,
 ) {
     let Some(lock_out) = &antenna.snapshot.lock_out else { return };
     let t = theme::tokens(ui);
-    let rect = at.take(button::HEIGHT);
+    let rect = cursor.take(button::HEIGHT);
     ui.painter().rect(rect, 5.0, t.warnbg, Stroke::new(1.0, t.warn), StrokeKind::Inside);
     let glyph = paint::square(pos2(rect.left() + 16.0, rect.center().y), 15.0);
     icons::paint(ui.painter(), glyph, Icon::Lock, t.warn);
@@ -46,5 +46,5 @@ pub(super) fn band(
     if button.show(ui, "take off", key).clicked() {
         *maintenance = Some(MaintenanceDialog::default());
     }
-    at.skip(6.0);
+    cursor.skip(6.0);
 }

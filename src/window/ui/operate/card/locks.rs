@@ -33,7 +33,7 @@ pub(in crate::ui::operate) struct Locks<'a> {
 impl<'a> Locks<'a> {
     /// Returns the locks of an antenna's controls. `in_replay` is the reason in a replay, which
     /// cannot reach a unit.
-    pub(in crate::ui::operate) fn of(
+    pub(in crate::ui::operate) fn new(
         model: &Model,
         antenna: &AntennaModel,
         in_replay: &'a str,
@@ -61,10 +61,11 @@ impl<'a> Locks<'a> {
         let maintenance =
             snapshot.lock_out.is_some().then_some("Locked: the unit is in maintenance.");
         let link = maintenance.or(link);
-        let to_direction = Motion::Position { azimuth: None, elevation: None };
-        let position_of = |motion| no_motion(model, antenna, motion);
-        let by_hand = link.or(position_of(Motion::Jog { x_deg_s: 0.0, y_deg_s: 0.0 })).or(fault);
-        let other = link.or(position_of(to_direction)).or(fault);
+        let to_position = Motion::Position { azimuth: None, elevation: None };
+        let motion_lock = |motion| no_motion(model, antenna, motion);
+        let jog_hindrance =
+            link.or(motion_lock(Motion::Jog { x_deg_s: 0.0, y_deg_s: 0.0 })).or(fault);
+        let position_hindrance = link.or(motion_lock(to_position)).or(fault);
         let jog = match intent {
             _ if program => Some(TRACKING),
             Intent::Manual => None,
@@ -84,15 +85,15 @@ impl<'a> Locks<'a> {
                 Some("Motion is locked. Choose Manual or Position.")
             }
         };
-        let blind = no_direction(antenna);
+        let direction_lock = no_direction(antenna);
         // A late reply must not change the layout of the card.
         let is_tracking = link.or(fault).is_none() && [jog, go_to] == [Some(TRACKING); 2];
         Self {
             link,
-            jog: by_hand.or(jog),
-            go_to: other.or(blind).or(go_to),
-            track: other.or(blind),
-            action: other.or(action),
+            jog: jog_hindrance.or(jog),
+            go_to: position_hindrance.or(direction_lock).or(go_to),
+            track: position_hindrance.or(direction_lock),
+            action: position_hindrance.or(action),
             is_tracking,
         }
     }
@@ -127,9 +128,10 @@ fn fault(antenna: &AntennaModel) -> Option<&'static str> {
 
 /// Returns the reason why Azel cannot send the antenna to any direction.
 fn no_direction(antenna: &AntennaModel) -> Option<&'static str> {
-    let can = antenna.variant().capabilities;
-    if !can.takes_positions {
-        return (!can.has_program).then_some("This controller cannot be sent to a direction.");
+    let capabilities = antenna.variant().capabilities;
+    if !capabilities.takes_positions {
+        return (!capabilities.has_program)
+            .then_some("This controller cannot be sent to a direction.");
     }
     missing_angle(antenna)
 }

@@ -30,29 +30,29 @@ fn word(mode: Intent) -> &'static str {
 }
 
 /// Returns `true` for a mode that a controller with these capabilities offers.
-pub(super) fn offers(can: Capabilities, mode: Intent) -> bool {
+pub(super) fn offers(capabilities: Capabilities, mode: Intent) -> bool {
     match mode {
         Intent::Standby | Intent::Manual => true,
-        Intent::Position | Intent::Park => can.takes_positions,
-        Intent::Track => can.has_program || can.takes_positions,
+        Intent::Position | Intent::Park => capabilities.takes_positions,
+        Intent::Track => capabilities.has_program || capabilities.takes_positions,
     }
 }
 
 /// Shows the modes that the controller offers. A click requests the mode at once, except Park,
 /// which takes a hold.
 pub(super) fn show(ui: &Ui, rect: Rect, card: &mut Card<'_>, track: &mut TrackState) {
-    let can = card.antenna.variant().capabilities;
+    let capabilities = card.antenna.variant().capabilities;
     let is_locked = card.model.replay.is_some();
-    let modes: Vec<Intent> = ALL.into_iter().filter(|mode| offers(can, *mode)).collect();
+    let modes: Vec<Intent> = ALL.into_iter().filter(|mode| offers(capabilities, *mode)).collect();
     let segments: Vec<(&str, Segment)> =
         modes.iter().map(|mode| (word(*mode), segment(card.antenna, is_locked, *mode))).collect();
     let clicked = segmented::show_commands(ui, "mode", rect, "Mode", &segments);
     let Some(mode) = clicked.and_then(|clicked| modes.get(clicked)) else { return };
     track.ask_to_park(*mode == Intent::Park);
     match mode {
-        Intent::Standby => card.ask(Command::Standby),
-        Intent::Manual => card.ask(Command::Manual),
-        Intent::Position => card.ask(Command::Hold),
+        Intent::Standby => card.queue(Command::Standby),
+        Intent::Manual => card.queue(Command::Manual),
+        Intent::Position => card.queue(Command::Hold),
         Intent::Track => track_selected(card, false),
         Intent::Park => {}
     }
@@ -85,8 +85,8 @@ mod tests {
     fn a_mode_that_the_controller_cannot_take_is_left_out() {
         let genius = Antenna::genius("Mast", "").connection.variant().capabilities;
         let offered = |takes_positions, has_program| {
-            let can = Capabilities { takes_positions, has_program, ..genius };
-            ALL.into_iter().filter(|mode| offers(can, *mode)).map(word).collect::<Vec<_>>()
+            let capabilities = Capabilities { takes_positions, has_program, ..genius };
+            ALL.into_iter().filter(|mode| offers(capabilities, *mode)).map(word).collect::<Vec<_>>()
         };
         assert_eq!(offered(true, false), ["Standby", "Manual", "Position", "Track", "Park"]);
         assert_eq!(offered(false, true), ["Standby", "Manual", "Track"]);

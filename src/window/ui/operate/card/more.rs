@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
-use super::{Card, Cursor, Locks, remark};
+use super::{Card, Cursor, Locks, show_remark};
 use crate::{
     contract::driver::Command,
     device::{
@@ -28,7 +28,7 @@ use crate::{
 
 const GAP: f32 = 8.0;
 /// Max share of the width for the label of a field, 0 to 1.
-const LABEL: f32 = 0.42;
+const LABEL_SHARE: f32 = 0.42;
 
 /// Input for the actions. The type has no `Debug`, because it may contain a password.
 #[derive(Clone, Default)]
@@ -56,71 +56,71 @@ impl MoreState {
 }
 
 /// Shows the actions and starts the chosen one, after its question if it has one.
-pub(super) fn show(ui: &mut Ui, at: &mut Cursor, card: &mut Card<'_>, state: &mut MoreState) {
+pub(super) fn show(ui: &mut Ui, cursor: &mut Cursor, card: &mut Card<'_>, state: &mut MoreState) {
     let actions = card.antenna.variant().actions;
-    let Some((action, act)) = list(ui, at, actions, &card.locks, state) else { return };
+    let Some((action, act)) = show_actions(ui, cursor, actions, &card.locks, state) else { return };
     match action.question {
         Some(text) => {
             let command = UiCommand::antenna(card.antenna.id(), Command::Act(act));
             *card.question = Some(Question { text: text.to_owned(), yes: action.label, command });
         }
-        None => card.ask(Command::Act(act)),
+        None => card.queue(Command::Act(act)),
     }
 }
 
 /// Shows the actions, those without input side by side. Returns the action to start, with its
 /// input.
-fn list(
+fn show_actions(
     ui: &mut Ui,
-    at: &mut Cursor,
+    cursor: &mut Cursor,
     actions: &'static [Action],
     locks: &Locks<'_>,
     state: &mut MoreState,
 ) -> Option<(&'static Action, Act)> {
-    at.skip(4.0);
-    let moves_locked = locks.action.filter(|_| actions.iter().any(|action| action.moves));
-    if let Some(why) = locks.link.or(moves_locked) {
-        remark(ui, at, "locked actions", Icon::Lock, theme::tokens(ui).t2, why);
-        at.skip(GAP);
+    cursor.skip(4.0);
+    let motion_lock = locks.action.filter(|_| actions.iter().any(|action| action.moves));
+    if let Some(reason) = locks.link.or(motion_lock) {
+        show_remark(ui, cursor, "locked actions", Icon::Lock, theme::tokens(ui).t2, reason);
+        cursor.skip(GAP);
     }
-    let mut right_end = at.right;
-    let mut asked = None;
+    let mut right_end = cursor.right;
+    let mut chosen = None;
     for action in actions {
         let is_locked = locks.link.is_some() || locks.action.is_some() && action.moves;
         let button = Button::normal(action.label).locked(is_locked);
-        let width = button.width(ui).min(at.width());
+        let width = button.width(ui).min(cursor.width());
         if action.fields.is_empty() {
             // Start a new row if the current one has no room for the button.
-            if right_end + GAP + width > at.right {
-                at.skip(SMALL_HEIGHT + GAP);
-                right_end = at.left - GAP;
+            if right_end + GAP + width > cursor.right {
+                cursor.skip(SMALL_HEIGHT + GAP);
+                right_end = cursor.left - GAP;
             }
-            let min = pos2(right_end + GAP, at.y - SMALL_HEIGHT - GAP);
+            let min = pos2(right_end + GAP, cursor.y - SMALL_HEIGHT - GAP);
             let place = Rect::from_min_size(min, vec2(width, SMALL_HEIGHT));
             right_end = place.right();
-            asked = asked.or(ask(ui, place, button, action, state));
+            chosen = chosen.or(show_button(ui, place, button, action, state));
         } else {
-            right_end = at.right;
+            right_end = cursor.right;
             for field in action.fields {
-                field_row(ui, at.take(SMALL_HEIGHT), action, field, state);
-                at.skip(4.0);
+                show_field(ui, cursor.take(SMALL_HEIGHT), action, field, state);
+                cursor.skip(4.0);
             }
-            let row = at.take(SMALL_HEIGHT);
-            at.skip(GAP);
+            let row = cursor.take(SMALL_HEIGHT);
+            cursor.skip(GAP);
             let place = row.with_min_x(row.right() - width);
-            asked = asked.or(ask(ui, place, button, action, state));
+            chosen = chosen.or(show_button(ui, place, button, action, state));
         }
         let refusal = state.refused.as_ref().filter(|(key, _)| *key == action.key);
         if let Some((_, words)) = refusal {
-            right_end = at.right;
-            remark(ui, at, "refused action", Icon::Warning, theme::tokens(ui).bad, words);
-            at.skip(GAP);
+            right_end = cursor.right;
+            show_remark(ui, cursor, "refused action", Icon::Warning, theme::tokens(ui).bad, words);
+            cursor.skip(GAP);
         }
     }
-    asked
+    chosen
 }
 
-fn ask(
+fn show_button(
     ui: &Ui,
     place: Rect,
     button: Button<'_>,
@@ -133,14 +133,14 @@ fn ask(
     }
     match state.read(action) {
         Ok(act) => Some((action, act)),
-        Err(why) => {
-            state.refused = Some((action.key, why));
+        Err(reason) => {
+            state.refused = Some((action.key, reason));
             None
         }
     }
 }
 
-fn field_row(
+fn show_field(
     ui: &mut Ui,
     row: Rect,
     action: &'static Action,
@@ -148,17 +148,17 @@ fn field_row(
     state: &mut MoreState,
 ) {
     let t = theme::tokens(ui);
-    let label = row.with_max_x(row.left() + LABEL * row.width());
+    let label = row.with_max_x(row.left() + LABEL_SHARE * row.width());
     paint::text_in(ui, label, Align2::LEFT_CENTER, field.label, text::small(), t.t2);
-    let about = if field.description.is_empty() { action.description } else { field.description };
+    let hint = if field.description.is_empty() { action.description } else { field.description };
     let salt = ("action label", action.key, field.key);
-    paint::name_text(ui, salt, label, field.label).on_hover_text(about);
+    paint::name_text(ui, salt, label, field.label).on_hover_text(hint);
     let room = row.with_min_x(label.right() + GAP);
-    let behind = match field.unit {
+    let unit_width = match field.unit {
         "" => 0.0,
         unit => paint::text_width(ui, unit, text::small()).ceil() + 5.0,
     };
-    let rect = room.with_max_x(room.right() - behind);
+    let rect = room.with_max_x(room.right() - unit_width);
     let unit = row.with_min_x(rect.right() + 4.0);
     paint::text_in(ui, unit, Align2::LEFT_CENTER, field.unit, text::small(), t.t3);
     let name = format!("{}: {}", action.label, field.label);
@@ -214,17 +214,17 @@ mod tests {
 
     #[derive(Default)]
     struct Story {
-        moves_locked: Option<&'static str>,
+        motion_lock: Option<&'static str>,
         state: MoreState,
-        asked: Vec<Act>,
+        acts: Vec<Act>,
     }
 
     fn section(story: Story) -> Harness<'static, Story> {
         let mut window = testing::window([320.0, 220.0], story, |ui, story| {
-            let mut at = Cursor::new(ui.max_rect());
-            let locks = Locks { action: story.moves_locked, ..Locks::default() };
-            let asked = list(ui, &mut at, ACTIONS, &locks, &mut story.state);
-            story.asked.extend(asked.map(|(_, act)| act));
+            let mut cursor = Cursor::new(ui.max_rect());
+            let locks = Locks { action: story.motion_lock, ..Locks::default() };
+            let chosen = show_actions(ui, &mut cursor, ACTIONS, &locks, &mut story.state);
+            story.acts.extend(chosen.map(|(_, act)| act));
         });
         window.run();
         window
@@ -235,7 +235,7 @@ mod tests {
         let mut window = section(Story::default());
         window.get_by_label("Turn the other").click();
         window.run();
-        assert!(window.state().asked.is_empty());
+        assert!(window.state().acts.is_empty());
         window.get_by_label("Heading must be a whole number from 0 to 360°.");
         window.get_by_label("Turn the other: Heading").focus();
         window.run();
@@ -245,7 +245,7 @@ mod tests {
         window.get_by_label("Turn the other").click();
         window.run();
         let values = Values::from([("to", Value::Integer(270)), ("way", Value::Choice(0))]);
-        assert_eq!(window.state().asked, [Act { action: "turn", values }]);
+        assert_eq!(window.state().acts, [Act { action: "turn", values }]);
     }
 
     #[test]
@@ -262,14 +262,14 @@ mod tests {
     #[test]
     fn what_moves_is_locked_with_its_reason_and_the_rest_is_not() {
         let reason = "Motion is locked. Choose Manual or Position.";
-        let mut window = section(Story { moves_locked: Some(reason), ..Story::default() });
+        let mut window = section(Story { motion_lock: Some(reason), ..Story::default() });
         window.get_by_label(reason);
         window.get_by_label("Turn the other").click();
         window.run();
-        assert!(window.state().asked.is_empty());
+        assert!(window.state().acts.is_empty());
         window.get_by_label("Reset alarms").click();
         window.run();
         let reset = Act { action: "reset", values: Values::default() };
-        assert_eq!(window.state().asked, [reset]);
+        assert_eq!(window.state().acts, [reset]);
     }
 }

@@ -32,22 +32,22 @@ pub(super) struct Offer {
 pub(super) const HEIGHT: f32 = button::SMALL_HEIGHT + 6.0;
 
 /// Returns the first available offer: take back offsets, track again, or take over a track.
-pub(super) fn offer(antenna: &AntennaModel) -> Option<Offer> {
-    if let Some(added) = offsets::left(antenna) {
+pub(super) fn available_offer(antenna: &AntennaModel) -> Option<Offer> {
+    if let Some(remaining) = offsets::describe_remaining(antenna) {
         return Some(Offer {
-            words: format!("Left on the unit: {added}."),
+            words: format!("Left on the unit: {remaining}."),
             button: "Take back",
-            name: format!("Take back {added}"),
+            name: format!("Take back {remaining}"),
             command: UiCommand::antenna(antenna.id(), Command::Offset(OffsetChange::Zero)),
         });
     }
-    if let Some(again) = &antenna.track_again {
-        let name = short(&again.name);
+    if let Some(track_again) = &antenna.track_again {
+        let name = short(&track_again.name);
         return Some(Offer {
             words: format!("Was tracking {name}."),
             button: "Track again",
             name: format!("Track {name} again"),
-            command: UiCommand::Station(again.command.clone()),
+            command: UiCommand::Station(track_again.command.clone()),
         });
     }
     // Without the elements, Azel cannot watch the track.
@@ -64,9 +64,9 @@ pub(super) fn offer(antenna: &AntennaModel) -> Option<Offer> {
 /// Shows the line in the lowest part of `block`.
 pub(super) fn show(ui: &Ui, block: Rect, offer: Offer, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
-    let inside = block.shrink2(vec2(12.0, 6.0));
-    let inside = inside.with_min_x(block.left() + if block.width() < 300.0 { 13.0 } else { 15.0 });
-    let row = inside.with_min_y(inside.bottom() - button::SMALL_HEIGHT);
+    let inner = block.shrink2(vec2(12.0, 6.0));
+    let inner = inner.with_min_x(block.left() + if block.width() < 300.0 { 13.0 } else { 15.0 });
+    let row = inner.with_min_y(inner.bottom() - button::SMALL_HEIGHT);
     let Offer { words, button, name, command } = offer;
     let button = Button::normal(button);
     let key = row.with_min_x(row.right() - button.width(ui));

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Color32, Rect, Ui, vec2};
 
-use super::{Card, Cursor, remark};
+use super::{Card, Cursor, show_remark};
 use crate::{
     astro::{Offset, TrackOffsets},
     contract::{
@@ -26,10 +26,10 @@ use crate::{
     },
 };
 
-const KEY: f32 = 36.0;
+const KEY_WIDTH: f32 = 36.0;
 const GAP: f32 = 4.0;
 /// Width of the choice of steps, points.
-const STEPS: f32 = 132.0;
+const STEPS_WIDTH: f32 = 132.0;
 
 /// Size of a step, in thousandths of a degree or of a second.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -45,7 +45,7 @@ impl OffsetStep {
         [(Self::Fine, "0.01"), (Self::Medium, "0.1"), (Self::Coarse, "1")];
 
     /// Returns a step of the kind of `offset`.
-    pub fn of(self, offset: Offset) -> Offset {
+    pub fn to_offset(self, offset: Offset) -> Offset {
         offset.with_thousandths(match self {
             Self::Fine => 10,
             Self::Medium => 100,
@@ -63,8 +63,8 @@ pub struct OffsetsState {
 
 /// Returns the offsets of the current track, by Azel or on board, and `true` if a change can be
 /// undone. Returns `None` while no track takes offsets.
-pub(super) fn in_force(antenna: &AntennaModel) -> Option<(TrackOffsets, bool)> {
-    if let Some(track) = followed(antenna) {
+pub(super) fn current_offsets(antenna: &AntennaModel) -> Option<(TrackOffsets, bool)> {
+    if let Some(track) = program_track(antenna) {
         return Some((track.offsets, track.can_undo));
     }
     antenna.variant().track_offsets.filter(|_| antenna.tracks())?;
@@ -73,12 +73,12 @@ pub(super) fn in_force(antenna: &AntennaModel) -> Option<(TrackOffsets, bool)> {
 }
 
 /// Returns the track for which Azel sends position after position.
-fn followed(antenna: &AntennaModel) -> Option<&TrackView> {
+fn program_track(antenna: &AntennaModel) -> Option<&TrackView> {
     antenna.snapshot.program_track.as_ref().filter(|_| antenna.follows())
 }
 
 fn is_offered(antenna: &AntennaModel, offset: Offset) -> bool {
-    match (offset, followed(antenna)) {
+    match (offset, program_track(antenna)) {
         (Offset::Along(_) | Offset::Across(_), Some(track)) => track.target_moves,
         (Offset::Elevation(_), Some(_)) => antenna.variant().capabilities.has_elevation(),
         (Offset::Time(_), Some(_)) | (Offset::Azimuth(_), _) | (Offset::Elevation(_), None) => true,
@@ -87,7 +87,7 @@ fn is_offered(antenna: &AntennaModel, offset: Offset) -> bool {
 }
 
 /// Describes the offsets that are still on the unit although no track needs them.
-pub(super) fn left(antenna: &AntennaModel) -> Option<String> {
+pub(super) fn describe_remaining(antenna: &AntennaModel) -> Option<String> {
     let unit = antenna.snapshot.unit_offsets.as_ref()?;
     let is_left = unit.left.is_some() && !unit.offsets.is_none() && !unit.is_changing;
     is_left.then(|| words::offsets(unit.offsets))
@@ -98,29 +98,29 @@ pub(super) fn in_words(
     ui: &Ui,
     antenna: &AntennaModel,
 ) -> Option<(String, Option<(Icon, Color32)>)> {
-    let (offsets, _) = in_force(antenna)?;
+    let (offsets, _) = current_offsets(antenna)?;
     let mark = (!offsets.is_none()).then_some((Icon::Sliders, theme::tokens(ui).cmd));
-    let unit = antenna.snapshot.unit_offsets.as_ref().filter(|_| followed(antenna).is_none());
+    let unit = antenna.snapshot.unit_offsets.as_ref().filter(|_| program_track(antenna).is_none());
     let changing = if unit.is_some_and(|unit| unit.is_changing) { ", being set" } else { "" };
     Some((format!("{}{changing}", words::offsets(offsets)), mark))
 }
 
 /// Shows the section. Call only while there are offsets to change.
-pub(super) fn show(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>, state: &mut OffsetsState) {
+pub(super) fn show(ui: &Ui, cursor: &mut Cursor, card: &mut Card<'_>, state: &mut OffsetsState) {
     let (antenna, t) = (card.antenna, theme::tokens(ui));
-    let (offsets, can_undo) = in_force(antenna).unwrap_or_default();
-    let (followed, snapshot) = (followed(antenna), &antenna.snapshot);
+    let (offsets, can_undo) = current_offsets(antenna).unwrap_or_default();
+    let (followed, snapshot) = (program_track(antenna), &antenna.snapshot);
     let needs_elements = followed.is_none() && snapshot.on_board.is_none();
-    let locked = card.locks.link.or(needs_elements.then_some(words::OFFSETS_NEED_ELEMENTS));
-    at.skip(4.0);
+    let lock = card.locks.link.or(needs_elements.then_some(words::OFFSETS_NEED_ELEMENTS));
+    cursor.skip(4.0);
     for offset in offsets.components().into_iter().filter(|offset| is_offered(antenna, *offset)) {
-        row(ui, at.take(SMALL_HEIGHT), offset, locked.is_some(), state.step, card);
-        at.skip(GAP);
+        show_row(ui, cursor.take(SMALL_HEIGHT), offset, lock.is_some(), state.step, card);
+        cursor.skip(GAP);
     }
-    let row = at.take(SMALL_HEIGHT);
+    let row = cursor.take(SMALL_HEIGHT);
     let head = paint::text(ui, row.left_center(), Align2::LEFT_CENTER, "Step", text::small(), t.t2);
     let choice = row.with_min_x(head.right() + 8.0);
-    let choice = choice.with_max_x(choice.left() + STEPS);
+    let choice = choice.with_max_x(choice.left() + STEPS_WIDTH);
     let segment =
         |(step, word)| (word, if step == state.step { Segment::Chosen } else { Segment::Free });
     let segments = OffsetStep::ALL.map(segment);
@@ -133,84 +133,93 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>, state: &mut Of
         ("Undo", OffsetChange::Undo, can_undo, "Undo the last offset"),
         ("Zero", OffsetChange::Zero, !offsets.is_none(), "All offsets to zero"),
     ] {
-        let button = Button::normal(word).locked(!is_free || locked.is_some());
+        let button = Button::normal(word).locked(!is_free || lock.is_some());
         let width = (button.width(ui) - 8.0).min(56.0);
         let place = row.with_min_x(right - width).with_max_x(right);
         right = place.left() - GAP;
         let response = button.show(ui, ("offset", word), place).accessible_name(name);
         if response.clicked() {
-            card.ask(Command::Offset(change));
+            card.queue(Command::Offset(change));
         }
     }
-    at.skip(GAP);
+    cursor.skip(GAP);
     if let Some(track) = followed {
-        keep(ui, at.take(SMALL_HEIGHT), track, card);
-        at.skip(GAP);
+        show_keep_buttons(ui, cursor.take(SMALL_HEIGHT), track, card);
+        cursor.skip(GAP);
     } else {
         let on_unit = words::offsets_on_unit(snapshot.state.on_board.offsets.as_ref());
         let words = words::offsets_on_unit_about(&on_unit);
-        let taken = paint::paragraph(ui, at.at(), at.width(), &words, text::small(), t.t2);
-        paint::name_text(ui, "offsets on the unit", taken, &words);
-        at.y = taken.bottom() + GAP;
+        let place =
+            paint::paragraph(ui, cursor.position(), cursor.width(), &words, text::small(), t.t2);
+        paint::name_text(ui, "offsets on the unit", place, &words);
+        cursor.y = place.bottom() + GAP;
     }
-    if let Some(why) = locked {
-        remark(ui, at, "offsets locked", Icon::Lock, t.t2, why);
-        at.skip(1.0);
+    if let Some(reason) = lock {
+        show_remark(ui, cursor, "offsets locked", Icon::Lock, t.t2, reason);
+        cursor.skip(1.0);
     }
-    at.skip(4.0);
+    cursor.skip(4.0);
 }
 
 /// Shows a button for each subject for which Azel can remember the offsets of the track.
-fn keep(ui: &Ui, row: Rect, track: &TrackView, card: &mut Card<'_>) {
+fn show_keep_buttons(ui: &Ui, row: Rect, track: &TrackView, card: &mut Card<'_>) {
     let t = theme::tokens(ui);
     let words = "Remember for";
     let head = paint::text(ui, row.left_center(), Align2::LEFT_CENTER, words, text::small(), t.t2);
     let room = row.with_min_x(head.right() + 8.0);
     let width = (room.width() - GAP) / 2.0;
     let mut left = room.left();
-    let of_satellite =
+    let satellite =
         track.catalog_number.map(|number| (OffsetsSubject::Satellite(number), short(&track.name)));
-    let of_antenna = (OffsetsSubject::Antenna(card.antenna.id()), &*card.antenna.config.name);
-    for (of, name) in of_satellite.into_iter().chain([of_antenna]) {
-        let differs = of.part(track.offsets) != card.model.station.kept_offsets(of);
+    let antenna = (OffsetsSubject::Antenna(card.antenna.id()), &*card.antenna.config.name);
+    for (subject, name) in satellite.into_iter().chain([antenna]) {
+        let differs = subject.part(track.offsets) != card.model.station.kept_offsets(subject);
         let place = room.with_min_x(left).with_max_x(left + width);
         left = place.right() + GAP;
-        let about = match of {
+        let description = match subject {
             OffsetsSubject::Satellite(_) => {
                 format!("Remember time, along and across the track for {name}")
             }
             OffsetsSubject::Antenna(_) => format!("Remember azimuth and elevation for {name}"),
         };
-        let said = if differs { about } else { format!("{about}: remembered already") };
+        let hint = if differs { description } else { format!("{description}: remembered already") };
         let response = Button::normal(name).locked(!differs).show(ui, ("keep", name), place);
-        let response = response.on_hover_text(&said).accessible_name(said);
+        let response = response.on_hover_text(&hint).accessible_name(hint);
         if response.clicked() {
-            let keep = contract::Command::KeepOffsets { subject: of, offsets: track.offsets };
-            card.commands.push(UiCommand::Station(keep));
+            let command = contract::Command::KeepOffsets { subject, offsets: track.offsets };
+            card.commands.push(UiCommand::Station(command));
         }
     }
 }
 
 /// Shows the name, the key for less, the value and the key for more.
-fn row(ui: &Ui, row: Rect, offset: Offset, is_locked: bool, step: OffsetStep, card: &mut Card<'_>) {
+fn show_row(
+    ui: &Ui,
+    row: Rect,
+    offset: Offset,
+    is_locked: bool,
+    step: OffsetStep,
+    card: &mut Card<'_>,
+) {
     let t = theme::tokens(ui);
     let (name, value) = (words::offset_name(offset), words::offset_value(offset));
     let colour = if offset.is_zero() { t.t2 } else { t.t1 };
     paint::text(ui, row.left_center(), Align2::LEFT_CENTER, name, text::small(), t.t2);
-    let more = row.with_min_x(row.right() - KEY);
-    let less = more.translate(vec2(-KEY - GAP, 0.0));
-    let shown = row.with_min_x(row.left() + 84.0).with_max_x(less.left() - 12.0);
+    let more = row.with_min_x(row.right() - KEY_WIDTH);
+    let less = more.translate(vec2(-KEY_WIDTH - GAP, 0.0));
+    let value_rect = row.with_min_x(row.left() + 84.0).with_max_x(less.left() - 12.0);
     let font = text::body_medium();
-    paint::text(ui, shown.right_center(), Align2::RIGHT_CENTER, &value, font, colour);
-    paint::name_text(ui, ("offset value", name), shown, &format!("{name} offset: {value}"));
-    let by = step.of(offset);
-    for (place, mark, by, word) in [(less, "−", -by, "less"), (more, "+", by, "more")] {
+    paint::text(ui, value_rect.right_center(), Align2::RIGHT_CENTER, &value, font, colour);
+    paint::name_text(ui, ("offset value", name), value_rect, &format!("{name} offset: {value}"));
+    let change = step.to_offset(offset);
+    for (place, mark, change, word) in [(less, "−", -change, "less"), (more, "+", change, "more")]
+    {
         let button = Button::normal(mark).locked(is_locked);
-        let said = format!("{name} offset, {word}");
-        let response = button.show(ui, ("offset", name, mark), place).accessible_name(said);
+        let key_name = format!("{name} offset, {word}");
+        let response = button.show(ui, ("offset", name, mark), place).accessible_name(key_name);
         if response.clicked() {
             response.request_focus();
-            card.ask(Command::Offset(OffsetChange::Step(by)));
+            card.queue(Command::Offset(OffsetChange::Step(change)));
         }
     }
 }

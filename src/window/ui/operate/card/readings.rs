@@ -13,11 +13,11 @@ use crate::{
     },
 };
 
-const LINE: f32 = 22.0;
+const LINE_HEIGHT: f32 = 22.0;
 /// Room for the bar below a line, points.
-const BAR: f32 = 6.0;
+const BAR_HEIGHT: f32 = 6.0;
 /// Max share of the width for the label, 0 to 1.
-const LABEL: f32 = 0.45;
+const LABEL_SHARE: f32 = 0.45;
 
 /// Returns the mark and the colour of a value.
 fn look(tone: Tone, t: &Tokens) -> (Option<Icon>, Color32) {
@@ -31,33 +31,35 @@ fn look(tone: Tone, t: &Tokens) -> (Option<Icon>, Color32) {
 
 /// Returns the most important reading for the fold: the most severe, otherwise the first.
 pub(super) fn in_words(ui: &Ui, readings: &[Reading]) -> (String, Option<(Icon, Color32)>) {
-    let of = |tone: Tone| readings.iter().find(|reading| reading.tone == tone);
-    let Some(reading) = of(Tone::Bad).or_else(|| of(Tone::Caution)).or(readings.first()) else {
+    let find_tone = |tone: Tone| readings.iter().find(|reading| reading.tone == tone);
+    let Some(reading) =
+        find_tone(Tone::Bad).or_else(|| find_tone(Tone::Caution)).or(readings.first())
+    else {
         return (String::new(), None);
     };
     let (icon, colour) = look(reading.tone, theme::tokens(ui));
     (format!("{} {}", reading.label, reading.text), icon.map(|icon| (icon, colour)))
 }
 
-pub(super) fn show(ui: &Ui, at: &mut Cursor, readings: &[Reading], with_head: bool) {
+pub(super) fn show(ui: &Ui, cursor: &mut Cursor, readings: &[Reading], has_head: bool) {
     let t = theme::tokens(ui);
-    if with_head {
-        let head = at.take(20.0);
+    if has_head {
+        let head = cursor.take(20.0);
         let words = "Reported by the unit";
         paint::text(ui, head.left_center(), Align2::LEFT_CENTER, words, text::caption(), t.t3);
     }
     for reading in readings {
-        let line = at.take(LINE);
+        let line = cursor.take(LINE_HEIGHT);
         show_line(ui, line, reading, t);
         if let Some(share) = reading.share {
-            bar(ui, at.take(BAR), share, t);
+            show_bar(ui, cursor.take(BAR_HEIGHT), share, t);
         }
     }
-    at.skip(6.0);
+    cursor.skip(6.0);
 }
 
 fn show_line(ui: &Ui, line: Rect, reading: &Reading, t: &Tokens) {
-    let room = line.with_max_x(line.left() + LABEL * line.width());
+    let room = line.with_max_x(line.left() + LABEL_SHARE * line.width());
     let label = paint::text_in(ui, room, Align2::LEFT_CENTER, &reading.label, text::small(), t.t2);
     let (icon, colour) = look(reading.tone, t);
     let mut room = line.with_min_x(label.right() + 8.0);
@@ -77,7 +79,7 @@ fn show_line(ui: &Ui, line: Rect, reading: &Reading, t: &Tokens) {
     }
 }
 
-fn bar(ui: &Ui, room: Rect, share: f64, t: &Tokens) {
+fn show_bar(ui: &Ui, room: Rect, share: f64, t: &Tokens) {
     let track = Rect::from_min_max(room.left_top(), pos2(room.right(), room.top() + 4.0));
     ui.painter().rect_filled(track, 0.0, t.bg3);
     let full = track.left() + share.clamp(0.0, 1.0) as f32 * track.width();
@@ -98,8 +100,8 @@ mod tests {
             Reading::new("Alarm", "none"),
         ];
         let window = testing::window([320.0, 120.0], readings, |ui, readings| {
-            let mut at = Cursor::new(ui.max_rect());
-            show(ui, &mut at, readings, true);
+            let mut cursor = Cursor::new(ui.max_rect());
+            show(ui, &mut cursor, readings, true);
             assert_eq!(in_words(ui, readings).0, "AGC 43 %");
             assert_eq!(in_words(ui, readings.get(2..).unwrap_or_default()).0, "Alarm none");
             assert_eq!(in_words(ui, &[]).0, "");

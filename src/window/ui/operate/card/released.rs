@@ -18,51 +18,51 @@ use crate::{
 };
 
 /// Shows Connect and a separate STOP, because STOP in the top bar leaves this unit alone.
-pub(super) fn show(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>) {
+pub(super) fn show(ui: &Ui, cursor: &mut Cursor, card: &mut Card<'_>) {
     let is_locked = card.model.replay.is_some();
-    let row = at.take(button::HEIGHT);
+    let row = cursor.take(button::HEIGHT);
     let (connect, stop) = row.split_left_right_at_fraction(0.4);
     if Button::primary("Connect")
         .locked(is_locked)
         .show(ui, "connect", connect.with_max_x(connect.right() - 4.0))
         .clicked()
     {
-        card.ask(Command::Connect);
+        card.queue(Command::Connect);
     }
-    if stop_key(ui, stop.with_min_x(stop.left() + 4.0), card.antenna, is_locked) {
+    if show_stop_key(ui, stop.with_min_x(stop.left() + 4.0), card.antenna, is_locked) {
         card.commands.push(UiCommand::StopAntenna(card.antenna.id()));
     }
-    at.skip(6.0);
+    cursor.skip(6.0);
 }
 
 /// Shows the effect of STOP on a unit without a connection.
-pub(super) fn about(ui: &Ui, at: &mut Cursor, antenna: &AntennaModel) {
+pub(super) fn show_stop_note(ui: &Ui, cursor: &mut Cursor, antenna: &AntennaModel) {
     let t = theme::tokens(ui);
-    let about = about_stop(antenna);
-    let words = paint::paragraph(ui, at.at(), at.width(), &about, text::small(), t.t2);
-    paint::name_text(ui, "about stop of a released unit", words, &about);
-    at.y = words.bottom() + 6.0;
+    let note = stop_note(antenna);
+    let place = paint::paragraph(ui, cursor.position(), cursor.width(), &note, text::small(), t.t2);
+    paint::name_text(ui, "about stop of a released unit", place, &note);
+    cursor.y = place.bottom() + 6.0;
 }
 
-fn about_stop(antenna: &AntennaModel) -> String {
-    let does = if antenna.variant().capabilities.waits_for_word {
+fn stop_note(antenna: &AntennaModel) -> String {
+    let effect = if antenna.variant().capabilities.waits_for_word {
         "takes control from anybody at its panel, and disconnects"
     } else {
         "disconnects again"
     };
     format!(
-        "Connect and STOP {does} when the antenna has stopped. STOP at the top does not reach this \
+        "Connect and STOP {effect} when the antenna has stopped. STOP at the top does not reach this \
          unit."
     )
 }
 
-fn stop_key(ui: &Ui, rect: Rect, antenna: &AntennaModel, is_locked: bool) -> bool {
+fn show_stop_key(ui: &Ui, rect: Rect, antenna: &AntennaModel, is_locked: bool) -> bool {
     let t = theme::tokens(ui);
-    let (name, about) = (format!("Connect and STOP {}", antenna.config.name), about_stop(antenna));
+    let (name, note) = (format!("Connect and STOP {}", antenna.config.name), stop_note(antenna));
     let colour = if is_locked { t.t3 } else { t.bad };
     let response =
         paint::control(ui, "stop a released unit", rect, Role::Button, !is_locked, &name);
-    ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(&*about));
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(&*note));
     // Only STOP in the top bar has the fill of STOP.
     let border = Stroke::new(2.0, colour);
     ui.painter().rect(rect, button::RADIUS, t.bg3, border, StrokeKind::Inside);
@@ -75,5 +75,5 @@ fn stop_key(ui: &Ui, rect: Rect, antenna: &AntennaModel, is_locked: bool) -> boo
     let room = rect.with_min_x(left + 22.0).shrink2(vec2(0.0, 2.0));
     paint::text_in(ui, room, Align2::LEFT_CENTER, words, font, colour);
     paint::focus_ring(ui, &response, button::RADIUS);
-    response.on_hover_text(about).clicked()
+    response.on_hover_text(note).clicked()
 }

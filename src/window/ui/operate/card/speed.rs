@@ -32,16 +32,16 @@ pub(super) fn in_words(chosen_deg_s: f64, speeds: JogSpeeds, max_deg_s: f64) -> 
     }
 }
 
-/// Returns the rate `by` steps up, degrees per second.
-pub(super) fn stepped(chosen_deg_s: f64, by: i32, speeds: JogSpeeds, max_deg_s: f64) -> f64 {
+/// Returns the rate `steps` steps up, degrees per second.
+pub(super) fn stepped(chosen_deg_s: f64, steps: i32, speeds: JogSpeeds, max_deg_s: f64) -> f64 {
     let JogSpeeds::Named(named) = speeds else {
-        return rate_slider::stepped(chosen_deg_s, by, max_deg_s);
+        return rate_slider::stepped(chosen_deg_s, steps, max_deg_s);
     };
-    let now = speeds.nearest(chosen_deg_s, max_deg_s);
-    let place = named.iter().position(|speed| Some(*speed) == now).unwrap_or_default();
+    let current = speeds.nearest(chosen_deg_s, max_deg_s);
+    let index = named.iter().position(|speed| Some(*speed) == current).unwrap_or_default();
     let last = named.len().saturating_sub(1);
-    let wanted = place.saturating_add_signed(by as isize).min(last);
-    named.get(wanted).map_or(chosen_deg_s, |speed| speed.share * max_deg_s)
+    let target = index.saturating_add_signed(steps as isize).min(last);
+    named.get(target).map_or(chosen_deg_s, |speed| speed.share * max_deg_s)
 }
 
 /// Shows the choice of the speed in `rect` and changes `chosen_deg_s`. `is_locked` locks the
@@ -59,9 +59,9 @@ pub(super) fn show(
             rate_slider::show(ui, rect, max_deg_s, is_locked, chosen_deg_s);
         }
         JogSpeeds::Named(named @ [_, _, ..]) => {
-            let now = speeds.nearest(*chosen_deg_s, max_deg_s);
+            let current = speeds.nearest(*chosen_deg_s, max_deg_s);
             let segment = |speed: &JogSpeed| {
-                let is_chosen = Some(*speed) == now;
+                let is_chosen = Some(*speed) == current;
                 (speed.name, if is_chosen { Segment::Chosen } else { Segment::Free })
             };
             let segments: Vec<_> = named.iter().map(segment).collect();
@@ -86,21 +86,23 @@ mod tests {
 
     #[test]
     fn what_is_sent_is_one_of_the_speeds_that_there_are() {
-        let is = |rate: f64, wanted: f64| assert!((rate - wanted).abs() < 1e-9, "{rate}");
-        is(rate_deg_s(0.7, TWO, 2.0), 0.5);
-        is(rate_deg_s(9.0, TWO, 2.0), 2.0);
-        is(rate_deg_s(0.5, ONE, 6.0), 6.0);
-        is(rate_deg_s(0.5, JogSpeeds::AnyRate, 3.0), 0.5);
-        is(rate_deg_s(9.0, JogSpeeds::AnyRate, 3.0), 3.0);
+        let assert_close =
+            |rate: f64, expected: f64| assert!((rate - expected).abs() < 1e-9, "{rate}");
+        assert_close(rate_deg_s(0.7, TWO, 2.0), 0.5);
+        assert_close(rate_deg_s(9.0, TWO, 2.0), 2.0);
+        assert_close(rate_deg_s(0.5, ONE, 6.0), 6.0);
+        assert_close(rate_deg_s(0.5, JogSpeeds::AnyRate, 3.0), 0.5);
+        assert_close(rate_deg_s(9.0, JogSpeeds::AnyRate, 3.0), 3.0);
     }
 
     #[test]
     fn a_step_up_takes_the_next_name_and_ends_at_the_last() {
-        let is = |rate: f64, wanted: f64| assert!((rate - wanted).abs() < 1e-9, "{rate}");
-        is(stepped(0.5, 1, TWO, 2.0), 2.0);
-        is(stepped(2.0, 1, TWO, 2.0), 2.0);
-        is(stepped(2.0, -3, TWO, 2.0), 0.5);
-        is(stepped(6.0, -1, ONE, 6.0), 6.0);
+        let assert_close =
+            |rate: f64, expected: f64| assert!((rate - expected).abs() < 1e-9, "{rate}");
+        assert_close(stepped(0.5, 1, TWO, 2.0), 2.0);
+        assert_close(stepped(2.0, 1, TWO, 2.0), 2.0);
+        assert_close(stepped(2.0, -3, TWO, 2.0), 0.5);
+        assert_close(stepped(6.0, -1, ONE, 6.0), 6.0);
     }
 
     #[test]

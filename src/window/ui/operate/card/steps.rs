@@ -18,12 +18,12 @@ use crate::{
 };
 
 /// Initial size of a step, degrees.
-const FIRST_DEG: f64 = 0.5;
+const DEFAULT_DEG: f64 = 0.5;
 /// Min size of a step, degrees: the unit reports hundredths, so a smaller step would not show.
 const MIN_DEG: f64 = 0.01;
-const LABEL: f32 = 36.0;
-const FIELD: f32 = 64.0;
-const KEY: f32 = 36.0;
+const LABEL_WIDTH: f32 = 36.0;
+const FIELD_WIDTH: f32 = 64.0;
+const KEY_WIDTH: f32 = 36.0;
 const GAP: f32 = 4.0;
 const ORDER: [JogDirection; 4] =
     [JogDirection::XMinus, JogDirection::XPlus, JogDirection::YMinus, JogDirection::YPlus];
@@ -36,7 +36,7 @@ pub(super) struct StepState {
 
 impl Default for StepState {
     fn default() -> Self {
-        Self { typed: FIRST_DEG.to_string() }
+        Self { typed: DEFAULT_DEG.to_string() }
     }
 }
 
@@ -51,17 +51,18 @@ impl StepState {
 /// Shows the row. Call only while the operator may use the keys.
 pub(super) fn show(
     ui: &mut Ui,
-    at: &mut Cursor,
+    cursor: &mut Cursor,
     card: &mut Card<'_>,
     state: &mut StepState,
     jog: JogState,
 ) {
     let (keys, blocked) = (axes::keys(card.antenna), axes::blocked(card.antenna));
-    let row = at.take(SMALL_HEIGHT);
+    let row = cursor.take(SMALL_HEIGHT);
     let t = theme::tokens(ui);
     paint::text(ui, row.left_center(), Align2::LEFT_CENTER, "Step", text::small(), t.t2);
     let size = state.size_deg(card.antenna);
-    let field = row.with_min_x(row.left() + LABEL).with_max_x(row.left() + LABEL + FIELD);
+    let field =
+        row.with_min_x(row.left() + LABEL_WIDTH).with_max_x(row.left() + LABEL_WIDTH + FIELD_WIDTH);
     let id = ui.make_persistent_id("step size");
     AngleField { refused: size.is_err(), hint: "", name: "Step size, degrees" }.show(
         ui,
@@ -73,34 +74,34 @@ pub(super) fn show(
     let unit = pos2(field.right() + GAP, row.center().y);
     paint::text(ui, unit, Align2::LEFT_CENTER, "°", text::small(), t.t2);
     let mut focused = jog.has_focus();
-    let mut asked = None;
+    let mut requested = None;
     let keys: Vec<_> = ORDER
         .into_iter()
         .filter_map(|direction| Some((direction, keys.label(direction)?)))
         .collect();
-    let mut left = row.right() + GAP - keys.len() as f32 * (KEY + GAP);
+    let mut left = row.right() + GAP - keys.len() as f32 * (KEY_WIDTH + GAP);
     for (direction, label) in keys {
-        let place = Rect::from_min_size(pos2(left, row.top()), vec2(KEY, SMALL_HEIGHT));
+        let place = Rect::from_min_size(pos2(left, row.top()), vec2(KEY_WIDTH, SMALL_HEIGHT));
         left = place.right() + GAP;
-        let free = size.is_ok() && !blocked.contains(&direction);
-        let button = Button::normal(label.word).locked(!free);
+        let is_free = size.is_ok() && !blocked.contains(&direction);
+        let button = Button::normal(label.word).locked(!is_free);
         let response = button.show(ui, ("step", direction), place);
         let response = response.accessible_name(format!("Step {}", label.name));
         focused |= keeps_arrows(ui, &response);
         if response.clicked() {
             response.request_focus();
-            asked = Some(direction);
+            requested = Some(direction);
         }
     }
     if focused {
-        asked = asked.or_else(|| arrow(ui));
+        requested = requested.or_else(|| arrow(ui));
     }
-    if let (Some(direction), Ok(step_deg)) = (asked, size)
+    if let (Some(direction), Ok(step_deg)) = (requested, size)
         && !blocked.contains(&direction)
         && !jog.is_held()
     {
         let (x, y) = direction.signs();
-        card.ask(Command::Step { steps_deg: [x, y].map(|sign| f64::from(sign) * step_deg) });
+        card.queue(Command::Step { steps_deg: [x, y].map(|sign| f64::from(sign) * step_deg) });
     }
 }
 

@@ -5,7 +5,7 @@ use egui::{Align2, Rect, Ui, pos2, vec2};
 use super::{
     Card, CardState, Cursor,
     follow::{self, follow_into_sun},
-    modes, remark,
+    modes, show_remark,
 };
 use crate::{
     astro::time::seconds_between,
@@ -33,16 +33,16 @@ use crate::{
 };
 
 /// Min width of the satellite on the left, points.
-const MIN_HELD: f32 = 88.0;
+const MIN_CURRENT_WIDTH: f32 = 88.0;
 
 /// Open questions about the track.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct TrackState {
-    parking: bool,
+    asks_park: bool,
     /// Flag: the operator chose the Sun, which still takes a hold.
     asks_sun: bool,
-    hold: HoldState,
-    tracking: HoldState,
+    question_hold: HoldState,
+    track_hold: HoldState,
 }
 
 /// Request that takes a hold.
@@ -55,11 +55,12 @@ enum Question {
 impl TrackState {
     /// Opens the question about parking, or drops the open questions.
     pub(super) fn ask_to_park(&mut self, parking: bool) {
-        (self.parking, self.asks_sun, self.hold) = (parking, false, HoldState::default());
+        (self.asks_park, self.asks_sun, self.question_hold) =
+            (parking, false, HoldState::default());
     }
 
     /// Returns the note on the open question: the park position, or following the Sun.
-    pub(super) fn about_the_question(&self, card: &Card<'_>) -> Option<String> {
+    pub(super) fn question_note(&self, card: &Card<'_>) -> Option<String> {
         match self.question(card)? {
             Question::Park => Some(words::parks_at(card.antenna)),
             Question::Sun => sun_avoidance(card),
@@ -71,7 +72,7 @@ impl TrackState {
             return None;
         }
         let sun = (self.asks_sun && sun_avoidance(card).is_some()).then_some(Question::Sun);
-        self.parking.then_some(Question::Park).or(sun)
+        self.asks_park.then_some(Question::Park).or(sun)
     }
 }
 
@@ -99,30 +100,30 @@ pub(super) fn track_selected(card: &mut Card<'_>, is_agreed: bool) {
 }
 
 /// Shows the tracked and the selected satellite, or a question in their place.
-pub(super) fn row(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>, state: &mut CardState) {
+pub(super) fn show_row(ui: &Ui, cursor: &mut Cursor, card: &mut Card<'_>, state: &mut CardState) {
     if !offers_track(card.antenna) {
         return;
     }
-    at.skip(8.0);
-    let mut row = at.take(button::HEIGHT);
+    cursor.skip(8.0);
+    let mut row = cursor.take(button::HEIGHT);
     if let Some(question) = state.track.question(card) {
-        return question_row(ui, row, question, card, &mut state.track);
+        return show_question(ui, row, question, card, &mut state.track);
     }
     let key = row.with_min_x(row.right() - follow::WIDTH);
     let can_follow = can_follow(card);
     if can_follow {
         row.max.x -= follow::WIDTH + 4.0;
     }
-    satellite_row(ui, row, card, &mut state.track.tracking);
+    show_satellites(ui, row, card, &mut state.track.track_hold);
     if can_follow {
-        let typed = state.drive.go_to.previewed();
-        follow::show(ui, key, card, typed, &mut state.track.asks_sun);
+        let go_to_target = state.drive.go_to.previewed();
+        follow::show(ui, key, card, go_to_target, &mut state.track.asks_sun);
     }
 }
 
 /// Shows the notes on tracking, and the switch for automatic starting. Leaves out a refusal that
 /// already appears above as the lock of the jog.
-pub(super) fn notes(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>, state: &TrackState) {
+pub(super) fn show_notes(ui: &Ui, cursor: &mut Cursor, card: &mut Card<'_>, state: &TrackState) {
     let (model, antenna) = (card.model, card.antenna);
     // Show no notes during a question, which has another subject.
     if !offers_track(antenna) || state.question(card).is_some() {
@@ -130,38 +131,38 @@ pub(super) fn notes(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>, state: &Track
     }
     if let Some(refusal) = card.locks.track {
         if card.locks.jog != Some(refusal) {
-            caution_row(ui, at, "track refusal", refusal);
+            show_caution(ui, cursor, "track refusal", refusal);
         }
     } else {
         let cautions = [
             ("nothing left", passes::nothing_left(model, antenna)),
-            ("misses", missed(model, antenna)),
-            ("track note", note(model, antenna)),
+            ("misses", miss_warning(model, antenna)),
+            ("track note", track_note(model, antenna)),
         ];
         for (salt, words) in cautions {
             if let Some(words) = words {
-                caution_row(ui, at, salt, &words);
+                show_caution(ui, cursor, salt, &words);
             }
         }
     }
     let program = antenna.snapshot.state.program.filter(|_| antenna.snapshot.link.is_open());
-    if let Some(on) = program.and_then(|program| program.auto) {
-        at.skip(4.0);
-        let row = at.take(button::SMALL_HEIGHT);
-        auto_track_row(ui, row, on, card);
+    if let Some(is_on) = program.and_then(|program| program.auto) {
+        cursor.skip(4.0);
+        let row = cursor.take(button::SMALL_HEIGHT);
+        show_auto_track(ui, row, is_on, card);
     }
 }
 
 /// Returns the reason why the unit would miss the selected satellite.
-fn missed(model: &Model, antenna: &AntennaModel) -> Option<String> {
-    let (found, selected) = (antenna.misses()?, model.selected_pass()?);
+fn miss_warning(model: &Model, antenna: &AntennaModel) -> Option<String> {
+    let (miss, selected) = (antenna.misses()?, model.selected_pass()?);
     let name = selected.satellite.short_name();
-    let why = words::would_miss(name, found, model.now, model.appearance.distances);
-    Some(format!("{why} Follow it from here instead."))
+    let reason = words::would_miss(name, miss, model.now, model.appearance.distances);
+    Some(format!("{reason} Follow it from here instead."))
 }
 
 /// Returns a further note on how the unit tracks.
-fn note(model: &Model, antenna: &AntennaModel) -> Option<String> {
+fn track_note(model: &Model, antenna: &AntennaModel) -> Option<String> {
     if antenna.snapshot.sun_lifted {
         return Some(words::SUN_IS_LIFTED.to_owned());
     }
@@ -169,7 +170,7 @@ fn note(model: &Model, antenna: &AntennaModel) -> Option<String> {
     let off_deg = antenna.error().map(|error| error.off_beam.degrees());
     // The search for a cause covers minutes, so it may report an error that is over.
     let is_over = |explained: &&Explained| {
-        explained.error_deg > half_beam_deg && off_deg.is_some_and(|off| off <= half_beam_deg)
+        explained.error_deg > half_beam_deg && off_deg.is_some_and(|deg| deg <= half_beam_deg)
     };
     let explained = antenna.explained.as_ref().filter(|explained| !is_over(explained));
     let explained = explained.and_then(|explained| words::record::explained(explained, model.now));
@@ -177,15 +178,16 @@ fn note(model: &Model, antenna: &AntennaModel) -> Option<String> {
     let lowest_deg = antenna.config.limits.minimum_elevation_deg;
     let lower = found.lower_minimum_deg.map(|deg| words::lower_minimum(deg, lowest_deg));
     // Beside a larger error, the small known error would look like its cause.
-    let is_off = off_deg.is_some_and(|off| off > half_beam_deg);
-    let off = words::within_beam(found, model.appearance.distances);
-    let off = off.filter(|_| found.is_within_beam && !is_off);
-    let said = explained.into_iter().chain(off).chain(lower).chain(words::not_known(found));
-    let said: Vec<String> = said.collect();
-    (!said.is_empty()).then(|| said.join(" "))
+    let is_off = off_deg.is_some_and(|deg| deg > half_beam_deg);
+    let small_error = words::within_beam(found, model.appearance.distances);
+    let small_error = small_error.filter(|_| found.is_within_beam && !is_off);
+    let sentences =
+        explained.into_iter().chain(small_error).chain(lower).chain(words::not_known(found));
+    let sentences: Vec<String> = sentences.collect();
+    (!sentences.is_empty()).then(|| sentences.join(" "))
 }
 
-fn question_row(
+fn show_question(
     ui: &Ui,
     row: Rect,
     question: Question,
@@ -203,9 +205,9 @@ fn question_row(
     let cancel = Button::quiet("Cancel");
     let split = row.right() - cancel.width(ui);
     let hold = row.with_max_x(split - 8.0);
-    if hold_button::show(ui, hold, &words, &mut state.hold) {
+    if hold_button::show(ui, hold, &words, &mut state.question_hold) {
         match question {
-            Question::Park => card.ask(Command::Park),
+            Question::Park => card.queue(Command::Park),
             Question::Sun => follow_into_sun(card),
         }
         *state = TrackState::default();
@@ -217,31 +219,31 @@ fn question_row(
 
 /// Shows the unit's satellite on the left. Shows the selected satellite, or the button to track it,
 /// on the right.
-fn satellite_row(ui: &Ui, row: Rect, card: &mut Card<'_>, hold: &mut HoldState) {
+fn show_satellites(ui: &Ui, row: Rect, card: &mut Card<'_>, hold: &mut HoldState) {
     let (model, antenna) = (card.model, card.antenna);
     let is_locked = card.locks.track.is_some();
     let chosen = model.selected_pass().map(|predicted| predicted.satellite.short_name());
     let misses = antenna.misses().is_some() && chosen.is_some() && !is_locked;
-    let (held_name, tracks_selected) = held(model, antenna);
+    let (current_name, tracks_selected) = current_satellite(model, antenna);
     let selected = chosen.filter(|_| !tracks_selected);
     let words = selected.map(|selected| format!("Track {selected}")).unwrap_or_default();
     let is_useless = passes::nothing_left(model, antenna).is_some();
     let button = if is_useless { Button::normal } else { Button::primary };
     let button = button(&words).locked(is_locked);
-    let held_width = match selected {
+    let current_width = match selected {
         // The text on the hold button is long.
         Some(_) if misses => 0.36 * row.width(),
-        Some(_) => (row.width() - button.width(ui)).clamp(MIN_HELD, 0.45 * row.width()),
+        Some(_) => (row.width() - button.width(ui)).clamp(MIN_CURRENT_WIDTH, 0.45 * row.width()),
         None => 0.45 * row.width(),
     };
-    let held = row.with_max_x(row.left() + held_width - 8.0);
-    let head = held_head(model, antenna);
-    two_lines(ui, "held", held, Align2::LEFT_CENTER, &head, held_name);
-    let rest = row.with_min_x(held.right() + 8.0);
+    let current_rect = row.with_max_x(row.left() + current_width - 8.0);
+    let head = current_caption(model, antenna);
+    show_two_lines(ui, "held", current_rect, Align2::LEFT_CENTER, &head, current_name);
+    let rest = row.with_min_x(current_rect.right() + 8.0);
     let Some(selected) = selected else {
         let name = chosen.unwrap_or("none");
         let head = if chosen.is_some() { "Selected and tracked" } else { "Selected" };
-        two_lines(ui, "selected", rest, Align2::RIGHT_CENTER, head, name);
+        show_two_lines(ui, "selected", rest, Align2::RIGHT_CENTER, head, name);
         return;
     };
     if misses {
@@ -250,10 +252,10 @@ fn satellite_row(ui: &Ui, row: Rect, card: &mut Card<'_>, hold: &mut HoldState) 
         }
         return;
     }
-    let whole = button.width(ui);
-    let width = whole.min(rest.width());
+    let full_width = button.width(ui);
+    let width = full_width.min(rest.width());
     let mut response = button.show(ui, "track", row.with_min_x(row.right() - width));
-    if width < whole {
+    if width < full_width {
         response = response.on_hover_text(selected);
     }
     if response.clicked() {
@@ -263,7 +265,7 @@ fn satellite_row(ui: &Ui, row: Rect, card: &mut Card<'_>, hold: &mut HoldState) 
 
 /// Returns the caption of the satellite on the left: its source, and the age of its reading if the
 /// unit does not report it now.
-fn held_head(model: &Model, antenna: &AntennaModel) -> String {
+fn current_caption(model: &Model, antenna: &AntennaModel) -> String {
     let snapshot = &antenna.snapshot;
     if snapshot.program_track.is_some() || !antenna.variant().capabilities.has_program {
         return "Azel follows".to_owned();
@@ -282,7 +284,7 @@ fn held_head(model: &Model, antenna: &AntennaModel) -> String {
 
 /// Returns the satellite whose elements the unit holds, the target of the program track, or a
 /// placeholder. Also returns `true` if the antenna tracks the selected satellite now.
-fn held<'a>(model: &Model, antenna: &'a AntennaModel) -> (&'a str, bool) {
+fn current_satellite<'a>(model: &Model, antenna: &'a AntennaModel) -> (&'a str, bool) {
     let state = &antenna.snapshot.state;
     let selected = model.selected_pass().map(PredictedPass::number);
     let is_selected = |number: Option<u32>| number.is_some() && number == selected;
@@ -293,19 +295,19 @@ fn held<'a>(model: &Model, antenna: &'a AntennaModel) -> (&'a str, bool) {
     }
     // Ignore an unreadable reply, which might look like a name.
     let is_readable = state.unreadable.is_none();
-    let held = state.on_board.satellite.as_ref().filter(|_| is_readable);
+    let on_board = state.on_board.satellite.as_ref().filter(|_| is_readable);
     let last = state.last_satellite.as_ref().filter(|_| is_readable);
-    let name = match held.map(|held| &held.name).or(last.map(|last| &last.name)) {
+    let name = match on_board.map(|on_board| &on_board.name).or(last.map(|last| &last.name)) {
         None => "not read yet",
         Some(name) if name.is_empty() => "no satellite",
         Some(name) => short(name),
     };
-    let number = held.map(|held| held.catalog_number);
+    let number = on_board.map(|on_board| on_board.catalog_number);
     (name, is_selected(number) && is_selected(antenna.tracked_number()))
 }
 
 /// Shows a small caption over a name.
-fn two_lines(ui: &Ui, salt: &str, room: Rect, anchor: Align2, head: &str, name: &str) {
+fn show_two_lines(ui: &Ui, salt: &str, room: Rect, anchor: Align2, head: &str, name: &str) {
     let t = theme::tokens(ui);
     let up = room.translate(vec2(0.0, -8.0));
     paint::text_in(ui, up, anchor, head, text::caption(), t.t3);
@@ -320,24 +322,24 @@ fn two_lines(ui: &Ui, salt: &str, room: Rect, anchor: Align2, head: &str, name: 
 }
 
 /// Shows a refusal or a note.
-fn caution_row(ui: &Ui, at: &mut Cursor, salt: &str, words: &str) {
-    at.skip(2.0);
-    remark(ui, at, salt, Icon::Warning, theme::tokens(ui).warn, words);
+fn show_caution(ui: &Ui, cursor: &mut Cursor, salt: &str, words: &str) {
+    cursor.skip(2.0);
+    show_remark(ui, cursor, salt, Icon::Warning, theme::tokens(ui).warn, words);
 }
 
-fn auto_track_row(ui: &Ui, row: Rect, on: bool, card: &mut Card<'_>) {
+fn show_auto_track(ui: &Ui, row: Rect, is_on: bool, card: &mut Card<'_>) {
     let (t, is_locked) = (theme::tokens(ui), card.model.replay.is_some());
     let (state, word) =
-        if on { ("Auto-track: on", "Switch off") } else { ("Auto-track: off", "Switch on…") };
+        if is_on { ("Auto-track: on", "Switch off") } else { ("Auto-track: off", "Switch on…") };
     paint::text(ui, row.left_center(), Align2::LEFT_CENTER, state, text::small(), t.t2);
     let button = Button::normal(word).locked(is_locked);
     let place = row.with_min_x(row.right() - button.width(ui));
-    let said = Rect::from_min_max(row.min, pos2(place.left() - 8.0, row.bottom()));
-    paint::name_text(ui, "auto-track state", said, state);
+    let state_rect = Rect::from_min_max(row.min, pos2(place.left() - 8.0, row.bottom()));
+    paint::name_text(ui, "auto-track state", state_rect, state);
     let response = button.show(ui, "auto-track", place);
-    let said = format!("Auto-track: {}", if on { "switch off" } else { "switch on" });
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, !is_locked, &said));
+    let name = format!("Auto-track: {}", if is_on { "switch off" } else { "switch on" });
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, !is_locked, &name));
     if response.clicked() {
-        card.ask(Command::AutoTrack(!on));
+        card.queue(Command::AutoTrack(!is_on));
     }
 }

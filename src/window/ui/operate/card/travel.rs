@@ -18,14 +18,14 @@ use crate::{
 /// Returns the gauges of the axes, with the ends that the unit reports. Returns none for a unit
 /// that does not report its axes.
 pub(super) fn gauges(antenna: &AntennaModel) -> Vec<TravelModel<'static>> {
-    let can = antenna.variant().capabilities;
+    let capabilities = antenna.variant().capabilities;
     let state = &antenna.snapshot.state;
     let mount = antenna.config.mount;
-    let [whole_deg, within_deg] =
-        [mount, mount.clipped(state.travel_deg)].map(|it| it.travel_deg());
+    let [whole_deg, clipped_deg] =
+        [mount, mount.clipped(state.travel_deg)].map(|mount| mount.travel_deg());
     let gauge = |index: usize| {
         let axis = state.measured.and_then(|measured| measured.axes.get(index).copied());
-        let (name, whole_deg) = (can.axes.get(index)?, *whole_deg.get(index)?);
+        let (name, whole_deg) = (capabilities.axes.get(index)?, *whole_deg.get(index)?);
         let scale_deg = match mount {
             Mount::Xy { .. } => (0.0, 180.0),
             Mount::AzEl { .. } => whole_deg,
@@ -33,24 +33,24 @@ pub(super) fn gauges(antenna: &AntennaModel) -> Vec<TravelModel<'static>> {
         Some(TravelModel {
             name,
             scale_deg,
-            travel_deg: *within_deg.get(index)?,
+            travel_deg: *clipped_deg.get(index)?,
             position_deg: axis.and_then(|axis| axis.angle_deg),
             is_old: !antenna.is_live(),
-            decimals: format::decimals(can, 1),
+            decimals: format::decimals(capabilities, 1),
             lower_limit: axis.is_some_and(|axis| axis.minus_limit),
             upper_limit: axis.is_some_and(|axis| axis.plus_limit),
             turns: whole_deg.1 - whole_deg.0 > 360.0,
         })
     };
-    (0..can.axis_count()).filter_map(gauge).collect()
+    (0..capabilities.axis_count()).filter_map(gauge).collect()
 }
 
 /// Shows the gauges; a full card adds a head.
-pub(super) fn show(ui: &Ui, at: &mut Cursor, axes: &[TravelModel<'_>]) {
+pub(super) fn show(ui: &Ui, cursor: &mut Cursor, axes: &[TravelModel<'_>]) {
     let t = theme::tokens(ui);
-    if !at.is_short() && !axes.is_empty() {
-        at.skip(8.0);
-        let head = at.take(18.0);
+    if !cursor.is_short() && !axes.is_empty() {
+        cursor.skip(8.0);
+        let head = cursor.take(18.0);
         let words = "Axis travel";
         paint::text(ui, head.left_center(), Align2::LEFT_CENTER, words, text::caption(), t.t3);
         if let Some(range) = common_range(axes) {
@@ -65,16 +65,17 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, axes: &[TravelModel<'_>]) {
         }
     }
     for axis in axes {
-        travel_gauge::show(ui, at.take(travel_gauge::HEIGHT), axis);
+        travel_gauge::show(ui, cursor.take(travel_gauge::HEIGHT), axis);
     }
 }
 
 /// Returns the travel in words, if it is the same for all axes.
 fn common_range(axes: &[TravelModel<'_>]) -> Option<String> {
     let (low, high) = axes.first()?.travel_deg;
-    let same = |deg: f64, other: f64| (deg - other).abs() < 0.05;
-    let all = axes.iter().all(|axis| same(axis.travel_deg.0, low) && same(axis.travel_deg.1, high));
-    all.then(|| format!("{low:.0}° to {high:.0}°").replace('-', "−"))
+    let is_same = |deg: f64, other: f64| (deg - other).abs() < 0.05;
+    let is_common =
+        axes.iter().all(|axis| is_same(axis.travel_deg.0, low) && is_same(axis.travel_deg.1, high));
+    is_common.then(|| format!("{low:.0}° to {high:.0}°").replace('-', "−"))
 }
 
 pub(super) fn in_words(axes: &[TravelModel<'_>]) -> String {
