@@ -24,6 +24,7 @@ mod genius_session;
 mod host_tracking;
 mod link_tests;
 mod mask_stretches;
+mod metrics;
 mod network_ports;
 mod orbit_reference;
 mod pass_brute_force;

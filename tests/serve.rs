@@ -2,6 +2,7 @@
 //! process beside others.
 
 mod locks;
+mod metrics;
 mod ports;
 pub(crate) mod promises;
 pub(crate) mod record;

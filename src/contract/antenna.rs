@@ -4,6 +4,7 @@ mod answers;
 mod errors;
 mod past_tracks;
 mod stake;
+mod tally;
 
 use std::sync::Arc;
 
@@ -28,6 +29,7 @@ pub use answers::{Answers, NoMotion};
 pub use errors::{ErrorSample, Errors};
 pub use past_tracks::{PastTrack, PastTracks};
 pub use stake::Stake;
+pub use tally::{PassTally, StopTally, Tally};
 
 /// Predicted direction of a target at the time of a measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -88,6 +90,9 @@ pub struct AntennaModel {
     pub control: Control,
     /// Orbit with which the session judges on-board track.
     pub orbit: Option<Arc<KnownOrbit>>,
+    /// Counts for monitoring.
+    #[serde(default)]
+    pub tally: Tally,
 }
 
 impl AntennaModel {
@@ -115,6 +120,7 @@ impl AntennaModel {
             operation: Operation::Off(OffBecause::NotSwitchedOn),
             orbit: None,
             control: Control::default(),
+            tally: Tally::default(),
         }
     }
 

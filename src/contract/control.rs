@@ -37,11 +37,11 @@ pub struct Control {
     pub expected: Option<Expected>,
 }
 
-/// State of an antenna's port.
+/// State of a port for other programs.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PortState {
-    /// The antenna has no port.
+    /// No port is set.
     #[default]
     Closed,
     Listening(SocketAddr),

@@ -12,6 +12,7 @@ use crate::{
     automatic::DayLine,
     clock::Moment,
     closing::Closing,
+    control::PortState,
     copies::Copies,
     driver::TimeSync,
     link_tests::LinkTest,
@@ -94,6 +95,9 @@ pub struct Snapshot {
     pub record: Option<Arc<record::Status>>,
     /// Closing in progress, with the antennas that it waits for.
     pub closing: Option<Closing>,
+    /// State of the port for metrics.
+    #[serde(default)]
+    pub metrics: PortState,
 }
 
 impl Snapshot {
@@ -126,6 +130,7 @@ impl Snapshot {
             copies: Arc::default(),
             record: None,
             closing: None,
+            metrics: PortState::Closed,
         }
     }
 }

@@ -21,6 +21,7 @@ pub mod in_place;
 mod learned;
 pub mod link_tests;
 mod lock_outs;
+mod metrics;
 pub mod older_sets;
 pub mod on_board;
 mod opening;
@@ -68,6 +69,7 @@ use self::{
     demo::Demo,
     handle::{AntennaEnds, Published, Request},
     learned::LearnedDrives,
+    metrics::Metrics,
     passes::Searches,
     pointing_fit::PointingWork,
     ports::Ports,
@@ -208,6 +210,8 @@ struct Engine {
     client: Client,
     /// Ports for other programs; `None` in a rehearsal.
     ports: Option<Ports>,
+    /// Server of metrics; `None` in a rehearsal.
+    metrics: Option<Metrics>,
     publish: watch::Sender<Published>,
 }
 
@@ -278,6 +282,8 @@ impl Engine {
             Self::driving(driver, woken, settings, outside, outbox, requests);
         engine.ports = Some(Ports::start(client.clone())?);
         engine.open_ports();
+        engine.metrics = Some(Metrics::new(client.clone()));
+        engine.open_metrics();
         Ok((engine, client))
     }
 
@@ -380,6 +386,7 @@ impl Engine {
             outbox,
             client: client.clone(),
             ports: None,
+            metrics: None,
             publish,
         };
         engine.take_claims(settings.claims.clone());
@@ -530,6 +537,7 @@ impl Engine {
             copies: shared(&self.copies, &last.copies),
             record: self.recording.status(),
             closing: self.closing.clone(),
+            metrics: self.metrics.as_ref().map(Metrics::state).unwrap_or_default(),
         });
         let is_same = {
             let ends = &self.publish.borrow().ends;

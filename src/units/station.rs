@@ -13,6 +13,7 @@ mod keep_out;
 mod keeping;
 mod kept_offsets;
 mod lock_outs;
+mod metrics_port;
 mod mount;
 mod network_port;
 mod notices;
@@ -41,6 +42,7 @@ pub use keep_out::{Entered, KeepOut, SunAvoidance};
 pub use keeping::Retention;
 pub use kept_offsets::{KeptOffsets, OffsetsSubject};
 pub use lock_outs::{LOCK_OUTS_FILE, LockOut, LockOuts};
+pub use metrics_port::MetricsPort;
 pub use mount::Mount;
 pub use network_port::NetworkPort;
 pub use notices::{Notices, Tones};
@@ -123,6 +125,9 @@ pub struct Station {
     /// Ports on which other programs point antennas.
     #[serde(rename = "rotctld", skip_serializing_if = "Vec::is_empty")]
     pub network_ports: Vec<NetworkPort>,
+    /// Port for metrics; `None` if no program can read them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub metrics: Option<MetricsPort>,
     /// The antennas, in the order of their chips.
     #[serde(rename = "antenna")]
     pub antennas: Vec<Antenna>,
@@ -255,6 +260,7 @@ impl Default for Station {
             frequencies: Vec::new(),
             offsets: Vec::new(),
             network_ports: Vec::new(),
+            metrics: None,
             notices: Notices::default(),
             record: Retention::default(),
             on_close: None,

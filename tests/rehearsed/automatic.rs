@@ -132,6 +132,12 @@ async fn a_station_takes_its_passes_by_itself_and_each_that_it_misses_has_its_ca
     let told = std::mem::take(&mut witness.begun).into_iter();
     witness.begun = told.filter(|(antenna, pass)| witness.is_told(*antenna, *pass)).collect();
     assert!([dish, mast].iter().all(|antenna| operation(&client, *antenna).is_on()));
+    for antenna in &client.snapshot().antennas {
+        let passes = &antenna.tally.passes;
+        let flown = witness.flown.iter().filter(|(id, _)| *id == antenna.id()).count() as u64;
+        let counted = passes.whole + passes.partial + passes.missed;
+        assert_eq!(counted, flown, "the metrics count each pass once: {passes:?}");
+    }
     scene = scene.started_again(false).await;
     client = scene.client();
     for (name, antenna) in [("Dish", dish), ("Mast", mast)] {

@@ -43,7 +43,7 @@ impl Scene {
     }
 
     /// Starts a station with a record.
-    pub(super) fn recorded(start: Timestamp, station: &Station) -> Self {
+    pub(crate) fn recorded(start: Timestamp, station: &Station) -> Self {
         Self::keeping(start, station, Keeps { record: true, ..Keeps::default() })
     }
 

@@ -63,6 +63,10 @@ pub struct Snapshot {
     /// A lock-out has begun, but Azel has not yet read back standstill and auto-track off.
     pub locking: bool,
     pub stop: StopState,
+    /// Time at which the session had first written the last pressed STOP to the link; `None` before
+    /// the first STOP.
+    #[serde(default)]
+    pub stop_written: Option<Instant>,
     /// A motion that Azel has ended is not yet known to be at rest.
     pub runs_out: bool,
     /// No dead-man was available for the last motion by hand that needed one.
@@ -117,6 +121,7 @@ impl Snapshot {
             lock_out: None,
             locking: false,
             stop: StopState::Ready,
+            stop_written: None,
             runs_out: false,
             unguarded: false,
             breach: None,

@@ -16,6 +16,9 @@ pub struct Status {
     /// Last time at which Azel found that the open file was removed or replaced.
     #[serde(default)]
     pub removed: Option<Timestamp>,
+    /// Number of gaps in the record since the program started to write it.
+    #[serde(default)]
+    pub gaps: u64,
 }
 
 /// Reason why Azel cannot write.

@@ -185,6 +185,7 @@ impl Session {
             lock_out: self.gate.lock_out().cloned(),
             locking: self.is_being_locked_out(),
             stop: self.stop.state(now.steady),
+            stop_written: self.stop.written(),
             runs_out: self.stop.is_under_way(),
             unguarded: self.stop.guard.is_missing(),
             breach: self.observed.place.view(&axes, self.gate.permits_exit(now)),

@@ -435,6 +435,11 @@ impl Engine {
 
     /// Notes the outcome of a pass of the schedule.
     pub(super) fn note_flown(&mut self, antenna: AntennaId, flown: Flown) {
+        if let Some(index) = self.place(antenna)
+            && let Some(antenna) = self.antennas.get_mut(index)
+        {
+            antenna.shown.tally.passes.count(&flown);
+        }
         self.note_day(antenna, DayEvent::Flown(flown));
         self.record_has_grown();
     }

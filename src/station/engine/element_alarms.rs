@@ -65,7 +65,7 @@ impl Engine {
 }
 
 /// Returns `true` if the source needs an alarm.
-fn is_failing(report: &SourceReport) -> bool {
+pub(super) fn is_failing(report: &SourceReport) -> bool {
     let is_unread = report.files.iter().any(|file| file.problem.is_some());
     report.failures >= FAILURES || report.awaits_operator() || is_unread
 }

@@ -93,6 +93,7 @@ impl Picture for Snapshot {
             copies,
             record,
             closing,
+            metrics,
         } = self;
         let drawn = Drawn {
             antennas: (antennas.iter())
@@ -128,6 +129,7 @@ impl Picture for Snapshot {
                 alarms: alarms.clone(),
                 record: record.clone(),
                 closing: closing.clone(),
+                metrics: metrics.clone(),
                 ..Self::before_anything(*moment)
             },
         };

@@ -87,6 +87,7 @@ impl Engine {
             shown.asks_unseen = None;
             shown.stop_pressed = Some(stopped.instant);
             shown.last_stop = Some(stopped.instant);
+            shown.tally.stops.press(stopped.instant);
             if !stopped.tracked.contains(&id) {
                 continue;
             }

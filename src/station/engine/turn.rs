@@ -34,6 +34,7 @@ impl Engine {
         self.watch_driver();
         self.watch_claims();
         self.open_ports();
+        self.open_metrics();
         self.take_catalog();
         self.ask_with_typed_passwords();
         self.follow_source_orders();
@@ -175,6 +176,7 @@ impl Engine {
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         antenna.shown.snapshot = antenna.handle.snapshot();
         let (shown, recent) = (&mut antenna.shown, &mut antenna.recent);
+        shown.tally.stops.follow(&shown.snapshot);
         refresh(shown, recent, self.station.site, |number| pass_lists.satellite(number));
         let mut events = Vec::new();
         while let Some(event) = antenna.handle.next_event() {

@@ -262,6 +262,9 @@ impl Writer {
         }
         self.camera.write(&tx, *run)?;
         tx.commit()?;
+        if missed != Missed::default() {
+            locked(&self.shared.status).gaps += 1;
+        }
         self.log = file_id(&with_ending(&self.path, "-wal"));
         // Clear these after the commit: failed data is written again.
         self.shared.turned_away.fetch_sub(turned_away, Ordering::Relaxed);

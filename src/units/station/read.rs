@@ -5,6 +5,7 @@ mod antenna;
 mod favourites;
 mod keep_out;
 mod keeping;
+mod metrics_port;
 mod network_ports;
 mod notices;
 mod offsets;
@@ -90,6 +91,7 @@ pub(super) fn read(mut table: Table, specs: &[&'static ControllerSpec]) -> Read 
         frequencies: fields.frequencies(),
         offsets: Vec::new(),
         network_ports: Vec::new(),
+        metrics: fields.metrics_port(),
         notices: fields.notices(),
         record: fields.keeping(),
         on_close: fields.on_close(),

@@ -306,6 +306,7 @@ impl Session {
         if !bytes.is_empty() {
             write(&self.clock, writer, &bytes).await?;
             let now = self.now();
+            self.stop.note_written(now.steady);
             self.note_write(now);
             self.gate.device().sent(&bytes, now);
         }

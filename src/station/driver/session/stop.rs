@@ -79,12 +79,23 @@ pub(super) struct Stop {
     bytes: Vec<u8>,
     /// Token that delays the computer's sleep during a halt.
     awake: Option<Awake>,
+    /// The session has not yet written the last pressed STOP.
+    awaits_write: bool,
+    /// Time of the first write of the last pressed STOP.
+    written: Option<Instant>,
     pub(super) guard: Guard,
 }
 
 impl Stop {
     pub(super) fn new(guard: Guard) -> Self {
-        Self { stage: Stage::Ready, bytes: Vec::new(), awake: None, guard }
+        Self {
+            stage: Stage::Ready,
+            bytes: Vec::new(),
+            awake: None,
+            awaits_write: false,
+            written: None,
+            guard,
+        }
     }
 
     pub(super) fn is_under_way(&self) -> bool {
@@ -131,6 +142,7 @@ impl Stop {
     /// Begins a halt, or joins the current one. `patience`: time until the repetition.
     pub(super) fn begin(&mut self, pressed: bool, patience: Duration, now: Instant) {
         let again_at = now + patience;
+        self.awaits_write |= pressed;
         match &mut self.stage {
             // A second press must not delay the report that standstill is not proved.
             Stage::UnderWay(halting) => {
@@ -244,6 +256,18 @@ impl Stop {
 
     pub(super) fn take_bytes(&mut self) -> Vec<u8> {
         std::mem::take(&mut self.bytes)
+    }
+
+    /// Notes that the bytes of a halt are on the link.
+    pub(super) fn note_written(&mut self, now: Instant) {
+        if std::mem::take(&mut self.awaits_write) {
+            self.written = Some(now);
+        }
+    }
+
+    /// Returns the time of the first write of the last pressed STOP.
+    pub(super) fn written(&self) -> Option<Instant> {
+        self.written
     }
 
     /// Delays the computer's sleep.
