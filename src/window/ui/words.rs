@@ -34,7 +34,10 @@ use crate::{
 };
 pub use alarms::{alarm, alarm_state, alarm_times, off_because, setting_note};
 pub use clock::compared_clock;
-pub use control::{asked_for_control, asks_for_control, connected, in_control, party, port_failed};
+pub use control::{
+    asked_for_control, asks_for_control, connected, in_control, metrics_port_failed, party,
+    port_failed,
+};
 pub use link_tests::{link_test, link_test_faults, link_test_reached, link_test_state, place};
 pub use notices::{missing_outlets, notice, reminder, trial};
 pub use offsets::{

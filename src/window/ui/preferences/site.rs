@@ -11,11 +11,11 @@ use super::{
     findings, form,
     page::Page,
     preview,
-    station_fields::RECORD,
+    station_fields::{MONITORING, RECORD},
 };
 use crate::{
     astro::{Site, sun_moon},
-    contract::{alarms::AlarmKind, antenna::AntennaModel},
+    contract::{alarms::AlarmKind, antenna::AntennaModel, control::PortState},
     model::{
         DistanceUnit, Model, UiCommand,
         effects::{
@@ -62,6 +62,9 @@ pub(super) fn show(
                     // In the demonstration, only the record of the demonstration runs.
                     if section == RECORD && !model.demo {
                         about_record(ui, model);
+                    }
+                    if section == MONITORING {
+                        about_metrics(ui, &model.metrics);
                     }
                 },
             );
@@ -166,6 +169,20 @@ fn about_record(ui: &mut Ui, model: &Model) {
         status_line::line(ui, Tone::Now, &format!("Recording, {size} so far."));
     }
     status_line::line(ui, Tone::Plain, &record.path.display().to_string());
+}
+
+/// Shows the state of the port for metrics.
+fn about_metrics(ui: &mut Ui, port: &PortState) {
+    match port {
+        PortState::Closed => {}
+        PortState::Listening(address) => {
+            let words = format!("Open at http://{address}/metrics.");
+            status_line::line(ui, Tone::Now, &words);
+        }
+        PortState::Failed(reason) => {
+            status_line::line(ui, Tone::Bad, &words::metrics_port_failed(reason));
+        }
+    }
 }
 
 fn sun_in_short(site: Site, model: &Model) -> String {

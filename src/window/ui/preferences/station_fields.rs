@@ -1,6 +1,9 @@
 //! Fields of the site.
 
-use std::borrow::Cow;
+use std::{
+    borrow::Cow,
+    net::{AddrParseError, SocketAddr},
+};
 
 use super::{
     connection_fields::not_empty,
@@ -11,7 +14,8 @@ use super::{
 };
 use crate::{
     astro::{Air, Refraction, Site},
-    station::{OnClose, Station, ranges},
+    device::settings::{Kind, Unfit, Value},
+    station::{MetricsPort, OnClose, Station, ranges},
 };
 
 /// Labels of the location fields.
@@ -24,6 +28,7 @@ const REFRACTION: &str = "Refraction";
 const PASSES: &str = "Passes";
 const CLOSING: &str = "Closing";
 pub(super) const RECORD: &str = "Record";
+pub(super) const MONITORING: &str = "Monitoring";
 
 /// A station with a site that may be invalid.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +37,7 @@ pub(in crate::ui) struct Ground {
     longitude_deg: f64,
     altitude_m: f64,
     refraction: Refraction,
+    metrics: EnteredPort,
     /// The station, including the settings that no page edits.
     station: Station,
 }
@@ -44,6 +50,7 @@ impl Ground {
             longitude_deg: rounded(site.longitude().degrees()),
             altitude_m: site.altitude_m(),
             refraction: site.refraction(),
+            metrics: EnteredPort::new(station.metrics),
             station: station.clone(),
         }
     }
@@ -55,7 +62,33 @@ impl Ground {
 
     /// Returns the station, with the saved contents of the other pages and without antennas.
     pub(in crate::ui) fn station(self) -> Option<Station> {
-        Some(Station { site: self.site()?, antennas: Vec::new(), ..self.station })
+        let (site, metrics) = (self.site()?, self.metrics.port().ok()?);
+        Some(Station { site, metrics, antennas: Vec::new(), ..self.station })
+    }
+}
+
+/// The port for metrics, with an address that may be invalid. It keeps its address while the
+/// operator has switched the port off.
+#[derive(Debug, Clone, PartialEq)]
+struct EnteredPort {
+    is_on: bool,
+    listen: String,
+    open_to_network: bool,
+}
+
+impl EnteredPort {
+    fn new(port: Option<MetricsPort>) -> Self {
+        let MetricsPort { listen, open_to_network } = port.unwrap_or_default();
+        Self { is_on: port.is_some(), listen: listen.to_string(), open_to_network }
+    }
+
+    /// Returns the port, `None` if it is off.
+    fn port(&self) -> Result<Option<MetricsPort>, AddrParseError> {
+        if !self.is_on {
+            return Ok(None);
+        }
+        let listen = self.listen.parse()?;
+        Ok(Some(MetricsPort { listen, open_to_network: self.open_to_network }))
     }
 }
 
@@ -97,6 +130,7 @@ pub(super) fn all() -> Vec<Placed<Ground>> {
     all.extend(placed(PASSES, passes()));
     all.extend(placed(CLOSING, [closing()]));
     all.extend(placed(RECORD, record()));
+    all.extend(placed(MONITORING, monitoring()));
     all
 }
 
@@ -208,6 +242,49 @@ fn record() -> [GroundDescription; 2] {
         })
         .described("Reports and tracks of passes, commands, events, alarms, changes."),
     ]
+}
+
+fn monitoring() -> [GroundDescription; 3] {
+    let is_on = |ground: &Ground| ground.metrics.is_on;
+    [
+        flag("Metrics for Prometheus", |ground| &mut ground.metrics.is_on)
+            .described("Other programs can read the state of the station, and change nothing."),
+        GroundDescription::text("Listen on", socket_address, |ground| {
+            Some(&mut ground.metrics.listen)
+        })
+        .when(is_on),
+        flag("Open to the network", |ground| &mut ground.metrics.open_to_network)
+            .when(is_on)
+            .checked(|ground| match ground.metrics.port() {
+                Ok(Some(port)) if port.lacks_permission() => {
+                    Err("must be on for this address; or listen on 127.0.0.1")
+                }
+                Ok(_) | Err(_) => Ok(()),
+            })
+            .described("Every computer of the network can then read them without a password."),
+    ]
+}
+
+fn flag(label: &'static str, place: fn(&mut Ground) -> &mut bool) -> GroundDescription {
+    GroundDescription::new(
+        label,
+        Kind::Flag,
+        move |ground| Some(Value::Flag(*place(ground))),
+        move |ground, value| {
+            if let Value::Flag(is_on) = value {
+                *place(ground) = is_on;
+            }
+            Ok(())
+        },
+    )
+}
+
+/// Checks the address and port of a server.
+fn socket_address(text: &str) -> Result<(), Unfit> {
+    let address = text.parse::<SocketAddr>();
+    address.map(drop).map_err(|_| {
+        Unfit::Text("must be an address and a port, such as 127.0.0.1:9464".to_owned())
+    })
 }
 
 const ON_CLOSE: [Option<OnClose>; 4] =

@@ -67,6 +67,11 @@ pub fn port_failed(reason: &str) -> String {
     )
 }
 
+/// Describes a port for metrics that the operating system refuses.
+pub fn metrics_port_failed(reason: &str) -> String {
+    format!("The port is not open: {reason}. Azel tries again every 5 s, or choose another port.")
+}
+
 fn capital(words: &str) -> String {
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
