@@ -28,6 +28,7 @@ mod makes;
 mod map;
 mod mask;
 mod menus;
+mod monitoring;
 mod notices;
 mod offsets;
 mod on_board;
