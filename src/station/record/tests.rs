@@ -273,6 +273,7 @@ fn what_did_not_fit_is_counted_and_marked() {
     assert_eq!(rows(&path, RowKind::Frame).len(), MAX_LINES);
     recorder.flush();
     assert_eq!(rows(&path, RowKind::Entry(Kind::Gap)).len(), 1, "marked once");
+    assert_eq!(recorder.status().gaps, 1);
 }
 
 #[test]
