@@ -7,6 +7,7 @@ mod elements;
 mod ends;
 mod explained;
 mod full_disk;
+mod hooks;
 mod learned;
 mod prices;
 mod recorded;

@@ -1,6 +1,7 @@
 //! Station without a window: real sockets to simulated units, and the program itself as a
 //! process beside others.
 
+mod hooks;
 mod locks;
 mod metrics;
 mod ports;

@@ -24,7 +24,10 @@ use azel::{
     orbit::{Elements, PassSearch, Propagator, RefreshHours, Source, bundled, passes},
     plan::{OnBoardPass, ProgramTrack, Target},
     secret::Secret,
-    station::{Antenna, AntennaId, Frequency, LockOut, OffsetsSubject, Priority, Station},
+    station::{
+        Antenna, AntennaId, Frequency, Hook, HookAction, HookEvent, LockOut, OffsetsSubject,
+        Priority, RuleSubject, Station,
+    },
 };
 use jiff::{Timestamp, ToSpan as _};
 
@@ -242,6 +245,16 @@ fn what_is_asked_of_a_station_comes_back() {
             satellite: "ISS".to_owned(),
         }))),
         Command::TestLink(Box::new(SPECS[0].antenna("Dish", "host:1"))),
+        Command::TryHook(Box::new(Hook {
+            antenna: Some(ANTENNA),
+            subject: Some(RuleSubject::Satellite(25_544)),
+            delay_s: -30.0,
+            ..Hook::new(
+                "Recorder",
+                HookEvent::Aos,
+                HookAction::Command(vec!["record".to_owned(), "a b".to_owned()]),
+            )
+        })),
         Command::CloseAfter(CloseHow::Leave),
         Command::StayOpen,
         Command::Client(ANTENNA, ClientCommand::Point(AzEl::from_degrees(100.0, 20.0))),

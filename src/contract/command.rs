@@ -21,8 +21,8 @@ use crate::{
     source_tests::TestAsk,
     sources::Copied,
     station::{
-        Antenna, AntennaId, Frequency, OffsetsSubject, PassLimits, Priority, Scheduling, Station,
-        Take,
+        Antenna, AntennaId, Frequency, Hook, OffsetsSubject, PassLimits, Priority, Scheduling,
+        Station, Take,
     },
     uploads,
 };
@@ -197,6 +197,8 @@ pub enum Command {
     /// Test of the link to the unit of this antenna, which may be outside the station. Azel hangs
     /// up afterwards.
     TestLink(#[serde(with = "written::antenna")] Box<Antenna>),
+    /// Trial call of a hook that may not be saved yet, with values of a sample pass.
+    TryHook(Box<Hook>),
     /// Request to close the station after this treatment of moving antennas.
     CloseAfter(CloseHow),
     /// Cancellation of the closing.
@@ -262,6 +264,7 @@ impl Command {
             | Self::Upload(_)
             | Self::TestSource(_)
             | Self::TestLink(_)
+            | Self::TryHook(_)
             | Self::CloseAfter(_)
             | Self::StayOpen
             | Self::Look(_) => None,
@@ -308,6 +311,8 @@ impl Command {
                 void_after_stop: true,
                 ..Row::OF_STATION
             },
+            // The call runs a program of this machine.
+            Self::TryHook(_) => Row { only_here: true, ..Row::OF_STATION },
             Self::Look(_)
             | Self::LookAtRecord(_)
             | Self::FitPointing(..)

@@ -25,6 +25,17 @@ pub enum CommandOrigin {
     Port(SocketAddr),
 }
 
+impl CommandOrigin {
+    /// Returns `true` for the operator and the programs of this user at the station's own machine.
+    pub fn is_on_this_machine(self) -> bool {
+        match self {
+            Self::Window | Self::Serve | Self::Program | Self::Signal | Self::Station => true,
+            // A program at a port may stand in for one on another machine.
+            Self::Port(_) => false,
+        }
+    }
+}
+
 impl From<HolderKind> for CommandOrigin {
     fn from(kind: HolderKind) -> Self {
         match kind {

@@ -15,6 +15,7 @@ pub mod control;
 pub mod copies;
 pub mod driver;
 mod event;
+pub mod hooks;
 pub mod host_keys;
 pub mod link_tests;
 pub mod older_sets;

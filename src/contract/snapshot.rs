@@ -15,6 +15,7 @@ use crate::{
     control::PortState,
     copies::Copies,
     driver::TimeSync,
+    hooks::HookRun,
     link_tests::LinkTest,
     older_sets::OlderSets,
     orbit::Catalog,
@@ -98,6 +99,9 @@ pub struct Snapshot {
     /// State of the port for metrics.
     #[serde(default)]
     pub metrics: PortState,
+    /// Last calls of hooks, the newest last.
+    #[serde(default)]
+    pub hooks: Arc<Vec<HookRun>>,
 }
 
 impl Snapshot {
@@ -131,6 +135,7 @@ impl Snapshot {
             record: None,
             closing: None,
             metrics: PortState::Closed,
+            hooks: Arc::default(),
         }
     }
 }

@@ -16,6 +16,7 @@ mod demo;
 mod element_alarms;
 pub mod film;
 mod handle;
+mod hooks;
 pub mod host_keys;
 pub mod in_place;
 mod learned;
@@ -68,6 +69,7 @@ use self::{
     copies::CopyWork,
     demo::Demo,
     handle::{AntennaEnds, Published, Request},
+    hooks::Hooks,
     learned::LearnedDrives,
     metrics::Metrics,
     passes::Searches,
@@ -212,6 +214,7 @@ struct Engine {
     ports: Option<Ports>,
     /// Server of metrics; `None` in a rehearsal.
     metrics: Option<Metrics>,
+    hooks: Hooks,
     publish: watch::Sender<Published>,
 }
 
@@ -284,6 +287,7 @@ impl Engine {
         engine.open_ports();
         engine.metrics = Some(Metrics::new(client.clone()));
         engine.open_metrics();
+        engine.hooks.enable();
         Ok((engine, client))
     }
 
@@ -387,6 +391,7 @@ impl Engine {
             client: client.clone(),
             ports: None,
             metrics: None,
+            hooks: Hooks::new(now.utc),
             publish,
         };
         engine.take_claims(settings.claims.clone());
@@ -538,6 +543,7 @@ impl Engine {
             record: self.recording.status(),
             closing: self.closing.clone(),
             metrics: self.metrics.as_ref().map(Metrics::state).unwrap_or_default(),
+            hooks: shared(self.hooks.shown(), &last.hooks),
         });
         let is_same = {
             let ends = &self.publish.borrow().ends;

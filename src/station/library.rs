@@ -30,7 +30,7 @@ use ureq::tls::{Certificate, RootCerts};
 pub use self::{
     authorities::system_authorities,
     exceptions::Exceptions,
-    fetch::Limits,
+    fetch::{Limits, environment_proxy},
     history::History,
     index::IndexError,
     list::{SourcesError, load_sources, save_sources},

@@ -8,6 +8,7 @@ mod controller_spec;
 mod favourite;
 mod file;
 mod frequency;
+mod hook;
 mod hours_of_day;
 mod keep_out;
 mod keeping;
@@ -37,6 +38,7 @@ pub use controller_spec::{ControllerSpec, DefaultFigures, Link};
 pub use favourite::{Favourite, Favourites, Priority};
 pub use file::{LoadError, Loaded, SaveError, free_path, load, save, saved_at, settings_path};
 pub use frequency::Frequency;
+pub use hook::{Hook, HookAction, HookEvent, HookProblem};
 pub use hours_of_day::HoursOfDay;
 pub use keep_out::{Entered, KeepOut, SunAvoidance};
 pub use keeping::Retention;
@@ -128,6 +130,9 @@ pub struct Station {
     /// Port for metrics; `None` if no program can read them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub metrics: Option<MetricsPort>,
+    /// Programs and web addresses that Azel calls at events.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub hooks: Vec<Hook>,
     /// The antennas, in the order of their chips.
     #[serde(rename = "antenna")]
     pub antennas: Vec<Antenna>,
@@ -261,6 +266,7 @@ impl Default for Station {
             offsets: Vec::new(),
             network_ports: Vec::new(),
             metrics: None,
+            hooks: Vec::new(),
             notices: Notices::default(),
             record: Retention::default(),
             on_close: None,

@@ -21,7 +21,10 @@ use azel::{
     orbit::{Source, SourcePlace},
     plan::{OnBoardPass, ProgramTrack, Target},
     secret::Secret,
-    station::{AntennaId, LockOut, OffsetsSubject, PassLimits, Priority, Station},
+    station::{
+        AntennaId, Hook, HookAction, HookEvent, LockOut, OffsetsSubject, PassLimits, Priority,
+        Station,
+    },
 };
 use jiff::Timestamp;
 
@@ -67,6 +70,11 @@ pub(super) fn lock_out() -> LockOut {
         start: "2026-08-12T10:00:00Z".parse().unwrap(),
         reason: "gear box open".to_owned(),
     }
+}
+
+/// Returns a hook of a program that does nothing.
+fn hook() -> Hook {
+    Hook::new("hook", HookEvent::Aos, HookAction::Command(vec!["true".to_owned()]))
 }
 
 /// Returns a direction that every simulated unit reaches, away from its start.
@@ -216,6 +224,7 @@ pub(super) fn commands_of_stations(
         C::Upload(_) => C::Upload(Ask::Cancel),
         C::TestSource(_) => C::TestSource(TestAsk::Cancel),
         C::TestLink(_) => C::TestLink(Box::new(unit)),
+        C::TryHook(_) => C::TryHook(Box::new(hook())),
         C::CloseAfter(CloseHow::Park) => C::CloseAfter(CloseHow::Park),
         C::CloseAfter(CloseHow::Hold) => C::CloseAfter(CloseHow::Hold),
         C::CloseAfter(CloseHow::Leave) => C::CloseAfter(CloseHow::Leave),

@@ -18,6 +18,8 @@ pub struct Row {
     pub takes_control: TakesControl,
     /// A later STOP voids the command while the command waits in any queue.
     pub void_after_stop: bool,
+    /// Only the operator at the station's own machine may give the command.
+    pub only_here: bool,
 }
 
 /// Effect of a command on the antenna.
@@ -83,6 +85,7 @@ impl Row {
         while_closing: false,
         takes_control: TakesControl::FromAll,
         void_after_stop: true,
+        only_here: false,
     };
     /// Row of commands that end a motion.
     const STOPS: Self = Self {

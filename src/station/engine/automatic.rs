@@ -440,6 +440,7 @@ impl Engine {
         {
             antenna.shown.tally.passes.count(&flown);
         }
+        self.note_missed_for_hooks(antenna, &flown);
         self.note_day(antenna, DayEvent::Flown(flown));
         self.record_has_grown();
     }

@@ -39,6 +39,9 @@ impl Engine {
         if let Command::Client(antenna, command) = command {
             return self.take_client_command(antenna, command);
         }
+        if command.row().only_here && !self.is_from_this_machine() {
+            return tracing::error!(?command, "only the station's own machine may ask for this");
+        }
         if self.is_elsewhere(&command) || self.is_void(&command) || self.is_too_late(&command) {
             return;
         }
@@ -161,7 +164,13 @@ impl Engine {
             }
             Command::ShelveAlarm { id, time } => self.alarms.shelve(id, time, self.now),
             Command::UnshelveAlarm(id) => self.alarms.unshelve(id),
-            Command::SaveStation(station) => self.save_station(*station),
+            Command::SaveStation(mut station) => {
+                if !self.is_from_this_machine() {
+                    station.keep_local_settings(&self.station);
+                }
+                self.save_station(*station);
+            }
+            Command::TryHook(hook) => self.try_hook(&hook),
             Command::TestSource(ask) => self.source_test_runner.ask(ask, &mut self.source_tests),
             Command::TestLink(antenna) => self.test_link(*antenna),
             Command::Upload(ask) => self.ask_about_upload(ask),
@@ -177,6 +186,11 @@ impl Engine {
             Command::TakeControl(_) | Command::Client(..) => {}
             Command::Look(attention) => self.attention = attention,
         }
+    }
+
+    /// Returns `true` if the current request does not come through a network port.
+    fn is_from_this_machine(&self) -> bool {
+        self.current_request.is_none_or(|request| request.origin.is_on_this_machine())
     }
 
     /// Returns `true` if a later STOP voids the command: a STOP of its antenna, or any STOP for a

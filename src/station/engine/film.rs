@@ -48,6 +48,8 @@ struct Drawn {
     source_tests: i64,
     link_tests: i64,
     copies: i64,
+    /// Calls of hooks; older films lack them.
+    hooks: Option<i64>,
 }
 
 /// Errors of an antenna: whole chunks and newest samples of the current track, and past tracks.
@@ -94,6 +96,7 @@ impl Picture for Snapshot {
             record,
             closing,
             metrics,
+            hooks,
         } = self;
         let drawn = Drawn {
             antennas: (antennas.iter())
@@ -117,6 +120,7 @@ impl Picture for Snapshot {
             source_tests: parts.number(source_tests)?,
             link_tests: parts.number(link_tests)?,
             copies: parts.number(copies)?,
+            hooks: Some(parts.number(hooks)?),
             shown: Self {
                 antennas: without_parts(antennas, parts),
                 time_sync: *time_sync,
@@ -270,6 +274,7 @@ impl Projector {
             source_tests,
             link_tests,
             copies,
+            hooks,
         } = drawn(shown.picture)?;
         let station = self.part_with(run, station, |content| {
             let mut deserializer = serde_json::Deserializer::from_slice(content);
@@ -300,6 +305,7 @@ impl Projector {
         shown.day = self.part(run, day)?;
         shown.uploads = self.part(run, uploads)?;
         shown.source_tests = self.part(run, source_tests)?;
+        shown.hooks = hooks.map(|chunk| self.part(run, chunk)).transpose()?.unwrap_or_default();
         shown.link_tests = self.part(run, link_tests)?;
         shown.copies = self.part(run, copies)?;
         self.predict(&mut shown, &station, elements);

@@ -37,6 +37,7 @@ use crate::{
         alarms::{Alarm, AlarmKind},
         automatic::DayLine,
         driver::{Event, Response, Safety, TimeSync},
+        hooks::HookRun,
         record::{PeakChange, Status},
         schedule::Planned,
     },
@@ -145,6 +146,11 @@ impl Recording {
 
     pub(super) fn day_line(&self, line: &DayLine, moment: Moment) {
         self.note(moment, Some(line.antenna), Kind::Day, line);
+    }
+
+    /// Records the call of a hook, once it has ended or is not made.
+    pub(super) fn hook(&self, run: &HookRun, moment: Moment) {
+        self.note(moment, run.antenna, Kind::Hook, run);
     }
 
     pub(super) fn event(&mut self, antenna: AntennaId, event: &Event, moment: Moment) {

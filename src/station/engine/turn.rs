@@ -63,6 +63,7 @@ impl Engine {
         self.link_test_runner.poll(&mut self.link_tests);
         self.keep_learned_drives();
         self.record_turn();
+        self.run_hooks();
     }
 
     /// Checks the clock before anything uses UTC. After a step, automatic operation waits for the

@@ -90,7 +90,7 @@ pub(super) fn agent(
         .timeout_global(Some(limits.timeout))
         .tls_config(TlsConfig::builder().root_certs(authorities.clone()).build())
         .user_agent(concat!("azel/", env!("CARGO_PKG_VERSION")));
-    config = config.proxy(if is_local { None } else { proxy(|name| env::var(name).ok())? });
+    config = config.proxy(if is_local { None } else { environment_proxy()? });
     Ok(Agent::from(config.build()))
 }
 
@@ -99,6 +99,11 @@ const PROXY_VARIABLES: [&str; 6] =
     ["ALL_PROXY", "all_proxy", "HTTPS_PROXY", "https_proxy", "HTTP_PROXY", "http_proxy"];
 /// Environment variables that list hosts to reach without a proxy.
 const NO_PROXY_VARIABLES: [&str; 2] = ["NO_PROXY", "no_proxy"];
+
+/// Returns the proxy of this program's environment.
+pub fn environment_proxy() -> Result<Option<Proxy>, FetchProblem> {
+    proxy(|name| env::var(name).ok())
+}
 
 /// Returns the proxy of the environment, with its exempt hosts. Fails if any proxy is unusable:
 /// bypassing a proxy silently could be forbidden.

@@ -1,6 +1,7 @@
 //! Rules that every make must keep.
 
 mod file;
+mod hooks;
 mod keep_out;
 mod notices;
 mod offsets;

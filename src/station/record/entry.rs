@@ -63,12 +63,14 @@ pub enum Kind {
     Day,
     /// Peak of the noise of the Sun or the Moon that the operator entered or removed.
     Peak,
+    /// Call of a hook, with its result.
+    Hook,
     /// Gap in which something could not be recorded.
     Gap,
 }
 
 impl Kind {
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Run,
         Self::Station,
         Self::Clock,
@@ -83,6 +85,7 @@ impl Kind {
         Self::Schedule,
         Self::Day,
         Self::Peak,
+        Self::Hook,
         Self::Gap,
     ];
 
@@ -103,6 +106,7 @@ impl Kind {
             Self::Schedule => "schedule",
             Self::Day => "day",
             Self::Peak => "peak",
+            Self::Hook => "hook",
             Self::Gap => "gap",
         }
     }

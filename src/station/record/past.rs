@@ -15,8 +15,12 @@ use super::{
 };
 use crate::{
     astro::{Angle, Site, time::seconds_between},
-    contract::record::{
-        AboutTrack, ListedKind, OpenedPass, PassPage, PassQuery, RecordedPass, RecordedReport, Row,
+    contract::{
+        hooks::HookRun,
+        record::{
+            AboutTrack, ListedKind, OpenedPass, PassPage, PassQuery, RecordedPass, RecordedReport,
+            Row,
+        },
     },
     device::Pointing,
     orbit::Propagator,
@@ -31,6 +35,10 @@ use crate::{
 const BEFORE: SignedDuration = SignedDuration::from_secs(300);
 /// Span of shown entries after LOS.
 const AFTER: SignedDuration = SignedDuration::from_secs(60);
+/// Span of the calls of hooks before AOS: the max lead, and the longer pass of the station.
+const HOOKS_BEFORE: SignedDuration = SignedDuration::from_mins(30);
+/// Span of the ends of calls after LOS: the max lag and the max timeout.
+const HOOKS_AFTER: SignedDuration = SignedDuration::from_mins(75);
 /// Max length of a found pass. Rows are in order of LOS, so a search by AOS reads this much
 /// further.
 pub(super) const LONGEST: SignedDuration = SignedDuration::from_hours(24);
@@ -198,7 +206,29 @@ impl PastPasses {
         if let Some(end) = query.end {
             entries.extend(self.gap_across(end)?);
         }
+        entries.extend(self.hooks(&pass)?);
         Ok(OpenedPass { pass, track, path, entries })
+    }
+
+    /// Returns the calls of hooks for a pass. Their entries have the times of their ends.
+    fn hooks(&self, pass: &RecordedPass) -> Result<Vec<Row>, RecordError> {
+        let report = &pass.report;
+        let query = Query {
+            start: report.start.checked_sub(HOOKS_BEFORE).ok(),
+            end: report.end.checked_add(HOOKS_AFTER).ok(),
+            antenna: Some(pass.antenna_name.clone()),
+            row_kinds: vec![RowKind::Entry(Kind::Hook)],
+        };
+        let number = report.elements.catalog_number();
+        let is_of_pass = |row: &Row| {
+            let run: Option<HookRun> = serde_json::from_value(row.data.clone()).ok();
+            run.is_some_and(|run| {
+                !run.is_trial && run.belongs_to(pass.antenna, number, report.start, report.end)
+            })
+        };
+        let mut hooks = read::entries(&self.db, &query)?;
+        hooks.retain(is_of_pass);
+        Ok(hooks)
     }
 
     /// Returns the gap that began before `time` and ended later. Azel notes a gap at its end, and

@@ -3,6 +3,7 @@
 
 mod antenna;
 mod favourites;
+mod hooks;
 mod keep_out;
 mod keeping;
 mod metrics_port;
@@ -92,6 +93,7 @@ pub(super) fn read(mut table: Table, specs: &[&'static ControllerSpec]) -> Read 
         offsets: Vec::new(),
         network_ports: Vec::new(),
         metrics: fields.metrics_port(),
+        hooks: Vec::new(),
         notices: fields.notices(),
         record: fields.keeping(),
         on_close: fields.on_close(),
@@ -116,6 +118,7 @@ pub(super) fn read(mut table: Table, specs: &[&'static ControllerSpec]) -> Read 
     station.network_ports = fields.network_ports(&antennas);
     let groups: Vec<&str> = station.groups.iter().map(|group| &*group.name).collect();
     station.rules = fields.list("rule", |rule| rule.automation_rule(&antennas, &groups));
+    station.hooks = fields.hooks(&antennas, &groups);
     fields.name_the_unknown();
     let TableFields { notes, left_out, antenna_places, .. } = fields;
     station.unread = unread::safety_entries(&notes, &antenna_places);

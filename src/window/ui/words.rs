@@ -6,6 +6,7 @@ pub mod automatic;
 mod clock;
 mod control;
 pub mod flown_with;
+pub mod hooks;
 mod link_tests;
 mod notices;
 mod offsets;

@@ -120,6 +120,7 @@ impl Engine {
 
     fn tell_finished(&mut self, finished: Finished) {
         if let Some(note) = finished.note {
+            self.report_to_hooks(&note);
             self.recording.tell_pass(note);
         }
         if let Some((antenna, flown)) = finished.flown {

@@ -133,7 +133,7 @@ impl TableFields<'_> {
         (self.notes.len() == before).then_some(rule)
     }
 
-    fn antenna_of_rule(&mut self, antennas: &[AntennaId]) -> Option<AntennaId> {
+    pub(super) fn antenna_of_rule(&mut self, antennas: &[AntennaId]) -> Option<AntennaId> {
         let number = self.table.remove("antenna")?.as_integer();
         let id = number.and_then(|number| u32::try_from(number).ok()).map(AntennaId);
         let valid = id.filter(|id| antennas.contains(id));
@@ -143,7 +143,7 @@ impl TableFields<'_> {
         valid
     }
 
-    fn satellites_of_rule(&mut self, groups: &[&str]) -> Option<RuleSubject> {
+    pub(super) fn satellites_of_rule(&mut self, groups: &[&str]) -> Option<RuleSubject> {
         if self.table.contains_key("satellite") {
             return self.satellite().map(RuleSubject::Satellite);
         }

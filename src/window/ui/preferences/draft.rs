@@ -21,7 +21,7 @@ use crate::{
     astro::Site,
     contract::link_tests::LinkTest,
     model::Model,
-    station::{Antenna, AntennaId, ControllerSpec, Station},
+    station::{Antenna, AntennaId, ControllerSpec, Hook, NetworkPort, RuleSubject, Station},
 };
 
 /// Draft of the whole form.
@@ -33,6 +33,8 @@ pub(in crate::ui) struct Draft {
     pub(super) skies: Skies,
     pub(super) satellites: SatellitesDraft,
     pub(super) rules: RulesDraft,
+    /// Hooks and network ports, which the form does not show.
+    local: LocalSettings,
 }
 
 impl Draft {
@@ -44,6 +46,7 @@ impl Draft {
             skies: Skies::new(station),
             satellites: SatellitesDraft::new(station),
             rules: RulesDraft::new(station),
+            local: LocalSettings::new(station),
         }
     }
 
@@ -225,7 +228,47 @@ impl Draft {
         for section in Page::all(self).into_iter().filter_map(|page| self.section(page)) {
             section.put_into(self, &mut station)?;
         }
+        self.local.put_into(&self.around_rules(), &mut station);
         Some(station)
+    }
+}
+
+/// Settings that the form keeps as they are.
+#[derive(PartialEq)]
+struct LocalSettings {
+    hooks: Vec<Hook>,
+    network_ports: Vec<NetworkPort>,
+    /// Names of the groups before any edit, in the order of their drafts.
+    groups: Vec<String>,
+}
+
+impl LocalSettings {
+    fn new(station: &Station) -> Self {
+        Self {
+            hooks: station.hooks.clone(),
+            network_ports: station.network_ports.clone(),
+            groups: station.groups.iter().map(|group| group.name.clone()).collect(),
+        }
+    }
+
+    /// Writes the settings, without those of a removed antenna or group. The hooks of a renamed
+    /// group follow its name.
+    fn put_into(&self, context: &RuleContext<'_>, station: &mut Station) {
+        let is_there = |id: AntennaId| station.antennas.iter().any(|antenna| antenna.id == id);
+        let ports = self.network_ports.iter().filter(|port| is_there(port.antenna));
+        let hooks = self.hooks.iter().filter(|hook| hook.antenna.is_none_or(is_there));
+        let renamed = |hook: &Hook| {
+            let subject = match &hook.subject {
+                Some(RuleSubject::Group(name)) => {
+                    let index = self.groups.iter().position(|group| group == name)?;
+                    Some(RuleSubject::Group(context.group(index)?))
+                }
+                other => other.clone(),
+            };
+            Some(Hook { subject, ..hook.clone() })
+        };
+        (station.network_ports, station.hooks) =
+            (ports.cloned().collect(), hooks.filter_map(renamed).collect());
     }
 }
 
@@ -274,6 +317,7 @@ mod tests {
             rc2000c::{BAUD, BUS_ADDRESS, Calibration},
         },
         makes::DemoAddresses,
+        station::{HookAction, HookEvent},
     };
 
     fn station() -> Station {
@@ -294,6 +338,39 @@ mod tests {
         let horizon_mask = HorizonMask::parse("0 2.5\n120 -0.3\n240.25 11").ok();
         let station = Station { horizon_mask, ..station() };
         assert_eq!(Draft::new(&station).read(), Some(station));
+    }
+
+    #[test]
+    fn hooks_and_ports_stay_with_their_antennas_and_groups() {
+        let mut station = station();
+        let ids: Vec<AntennaId> = station.antennas.iter().map(|antenna| antenna.id).collect();
+        station.groups.push(crate::station::SatelliteGroup {
+            name: "Weather".to_owned(),
+            satellites: vec![43_013],
+            priority: None,
+            limits: crate::station::PassLimits::default(),
+        });
+        let hook = |name: &str, antenna, subject| Hook {
+            antenna,
+            subject,
+            ..Hook::new(name, HookEvent::Aos, HookAction::Command(vec!["true".to_owned()]))
+        };
+        station.hooks = vec![
+            hook("all", None, None),
+            hook("first", Some(ids[0]), None),
+            hook("second", Some(ids[1]), None),
+            hook("group", None, Some(RuleSubject::Group("Weather".to_owned()))),
+        ];
+        station.network_ports = vec![station.free_port(ids[0])];
+        station.network_ports.push(station.free_port(ids[1]));
+        let mut draft = Draft::new(&station);
+        assert_eq!(draft.read().as_ref(), Some(&station));
+        draft.toggle_removed(1);
+        let after = draft.read().unwrap();
+        let names: Vec<&str> = after.hooks.iter().map(|hook| &*hook.name).collect();
+        assert_eq!(names, ["all", "first", "group"]);
+        let ports: Vec<AntennaId> = after.network_ports.iter().map(|port| port.antenna).collect();
+        assert_eq!(ports, [ids[0]]);
     }
 
     #[test]

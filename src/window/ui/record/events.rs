@@ -9,6 +9,7 @@ use crate::{
     contract::{
         CommandOrigin,
         alarms::{Alarm, AlarmChange},
+        hooks::HookRun,
         record::{OpenedPass, Row},
     },
     model::Model,
@@ -17,7 +18,7 @@ use crate::{
         format, text, theme,
         time_axis::TimeAxis,
         widgets::paint,
-        words::{alarm, record as words},
+        words::{alarm, hooks::run as hook_words, record as words},
     },
 };
 
@@ -111,6 +112,7 @@ fn events(model: &Model, axis: &TimeAxis, opened: &OpenedPass) -> [Vec<Moment>; 
     pass.push(of_pass(report.end, "LOS"));
     let mut lanes = [pass, Vec::new(), Vec::new(), Vec::new()];
     let mut announced: Vec<(i64, Alarm)> = Vec::new();
+    let mut hooks = Vec::new();
     for row in &opened.entries {
         let (lane, words, colour) = match &*row.kind {
             "command" => (1, command(row), Colour::Sent),
@@ -134,6 +136,14 @@ fn events(model: &Model, axis: &TimeAxis, opened: &OpenedPass) -> [Vec<Moment>; 
                 }
                 Err(_) => continue,
             },
+            "hook" => match serde_json::from_value::<HookRun>(row.data.clone()) {
+                Ok(run) => {
+                    let colour = if run.is_failure() { Colour::Caution } else { Colour::Sent };
+                    hooks.push(Moment { time: run.started, words: hook_words(&run), colour });
+                    continue;
+                }
+                Err(_) => continue,
+            },
             "gap" => (2, not_recorded(row), Colour::Caution),
             _ => continue,
         };
@@ -142,6 +152,9 @@ fn events(model: &Model, axis: &TimeAxis, opened: &OpenedPass) -> [Vec<Moment>; 
         if let Some(lane) = lanes.get_mut(lane) {
             lane.push(Moment { time, words, colour });
         }
+    }
+    if let Some(lane) = lanes.get_mut(1) {
+        lane.extend(hooks);
     }
     let is_told = |cause: LossCause, seconds: f64| has_positions(cause) && seconds >= MIN_S;
     let longest = report.report.losses.iter();

@@ -37,7 +37,7 @@ impl RuleContext<'_> {
     }
 
     /// Returns the name of a group that stays.
-    pub(super) fn group(&self, index: usize) -> Option<String> {
+    pub(in crate::ui::preferences) fn group(&self, index: usize) -> Option<String> {
         let mut remaining = self.satellites.remaining();
         remaining.find(|(other, _)| *other == index).map(|(_, group)| group.title())
     }
