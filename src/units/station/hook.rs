@@ -121,7 +121,7 @@ impl HookAction {
 
 fn check_address(url: &str) -> Result<(), HookProblem> {
     let (scheme, rest) = url.split_once("://").ok_or(HookProblem::NoAddress)?;
-    if !["http", "https"].iter().any(|known| scheme.eq_ignore_ascii_case(known)) {
+    if !["http", "https"].iter().any(|allowed| scheme.eq_ignore_ascii_case(allowed)) {
         return Err(HookProblem::NoAddress);
     }
     let authority = rest.split(['/', '?', '#']).next().unwrap_or_default();

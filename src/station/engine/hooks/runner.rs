@@ -19,7 +19,7 @@ use crate::{
 /// it limits all threads and programs.
 pub(super) const MAX_CALLS: usize = 4;
 
-/// Max length of kept output, bytes.
+/// Max length of stored output, bytes.
 pub(super) const MAX_OUTPUT: usize = 4096;
 
 /// Call with everything that it needs.
@@ -33,12 +33,12 @@ pub(super) struct Call {
 
 /// First bytes of an output.
 #[derive(Default)]
-struct Kept {
+struct CappedOutput {
     bytes: Vec<u8>,
     is_cut: bool,
 }
 
-impl Kept {
+impl CappedOutput {
     fn push(&mut self, bytes: &[u8]) {
         let left = MAX_OUTPUT.saturating_sub(self.bytes.len());
         self.bytes.extend(bytes.iter().take(left));
@@ -58,15 +58,15 @@ pub(super) fn start(call: Call, wake: &Wake) -> Job<HookOutcome> {
 /// Makes a call and waits for its end.
 pub(super) fn run(call: &Call) -> HookOutcome {
     let begun = Instant::now();
-    let (result, kept) = match &call.action {
+    let (result, output) = match &call.action {
         HookAction::Command(arguments) => program::run(arguments, call),
         HookAction::Webhook(url) => webhook::post(url, call),
     };
     HookOutcome {
         duration_s: begun.elapsed().as_secs_f64(),
         result,
-        output: kept.text(),
-        is_cut: kept.is_cut,
+        output: output.text(),
+        is_cut: output.is_cut,
     }
 }
 

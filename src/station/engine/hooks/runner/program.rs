@@ -8,7 +8,7 @@ use tokio::{
     time::{Instant, sleep, sleep_until, timeout},
 };
 
-use super::{Call, Kept};
+use super::{Call, CappedOutput};
 use crate::contract::hooks::HookResult;
 
 /// Variables of Azel's own environment that a program receives. All others stay back, because they
@@ -47,16 +47,16 @@ const FLOOD_PAUSE: Duration = Duration::from_millis(1);
 /// Time in which a killed program must end.
 const DIES_WITHIN: Duration = Duration::from_secs(1);
 
-pub(super) fn run(arguments: &[String], call: &Call) -> (HookResult, Kept) {
-    let mut kept = Kept::default();
+pub(super) fn run(arguments: &[String], call: &Call) -> (HookResult, CappedOutput) {
+    let mut output = CappedOutput::default();
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
     let result = runtime.and_then(|runtime| {
         runtime.block_on(async {
             let child = start(arguments, call)?;
-            follow(child, Instant::now() + call.timeout, &mut kept).await
+            follow(child, Instant::now() + call.timeout, &mut output).await
         })
     });
-    (result.unwrap_or_else(|error| HookResult::CannotStart(error.to_string())), kept)
+    (result.unwrap_or_else(|error| HookResult::CannotStart(error.to_string())), output)
 }
 
 fn start(arguments: &[String], call: &Call) -> io::Result<Child> {
@@ -78,7 +78,11 @@ fn start(arguments: &[String], call: &Call) -> io::Result<Child> {
 }
 
 /// Reads the output of a program until it ends, or kills it at `deadline`.
-async fn follow(mut child: Child, deadline: Instant, kept: &mut Kept) -> io::Result<HookResult> {
+async fn follow(
+    mut child: Child,
+    deadline: Instant,
+    output: &mut CappedOutput,
+) -> io::Result<HookResult> {
     let (mut stdout, mut stderr) = (child.stdout.take(), child.stderr.take());
     let (mut first, mut second) = (vec![0; READ], vec![0; READ]);
     let mut deadline = deadline;
@@ -92,13 +96,13 @@ async fn follow(mut child: Child, deadline: Instant, kept: &mut Kept) -> io::Res
                 deadline = deadline.min(Instant::now() + LAST_OUTPUT);
             }
             count = read(&mut stdout, &mut first), if stdout.is_some() => {
-                take(&mut stdout, first.get(..count), kept);
+                take(&mut stdout, first.get(..count), output);
             }
             count = read(&mut stderr, &mut second), if stderr.is_some() => {
-                take(&mut stderr, second.get(..count), kept);
+                take(&mut stderr, second.get(..count), output);
             }
         }
-        if kept.is_cut {
+        if output.is_cut {
             sleep(FLOOD_PAUSE).await;
         }
         if ended.is_some() && stdout.is_none() && stderr.is_none() {
@@ -123,9 +127,9 @@ async fn read(pipe: &mut Option<impl AsyncRead + Unpin>, buffer: &mut [u8]) -> u
     }
 }
 
-fn take<T>(pipe: &mut Option<T>, bytes: Option<&[u8]>, kept: &mut Kept) {
+fn take<T>(pipe: &mut Option<T>, bytes: Option<&[u8]>, output: &mut CappedOutput) {
     match bytes {
-        Some(bytes) if !bytes.is_empty() => kept.push(bytes),
+        Some(bytes) if !bytes.is_empty() => output.push(bytes),
         _ => *pipe = None,
     }
 }

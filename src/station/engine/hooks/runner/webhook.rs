@@ -8,7 +8,7 @@ use ureq::{
     tls::{Certificate, RootCerts, TlsConfig},
 };
 
-use super::{Call, Kept, MAX_OUTPUT};
+use super::{Call, CappedOutput, MAX_OUTPUT};
 use crate::{
     contract::hooks::HookResult,
     library::{environment_proxy, system_authorities},
@@ -16,13 +16,13 @@ use crate::{
 
 /// Posts the values once. Follows no redirection: the operator must check an address that has
 /// moved, and another host must not receive the values.
-pub(super) fn post(url: &str, call: &Call) -> (HookResult, Kept) {
-    let mut kept = Kept::default();
-    let result = ask(url, call, &mut kept);
-    (result.unwrap_or_else(|reason| reason), kept)
+pub(super) fn post(url: &str, call: &Call) -> (HookResult, CappedOutput) {
+    let mut output = CappedOutput::default();
+    let result = ask(url, call, &mut output);
+    (result.unwrap_or_else(|reason| reason), output)
 }
 
-fn ask(url: &str, call: &Call, kept: &mut Kept) -> Result<HookResult, HookResult> {
+fn ask(url: &str, call: &Call, output: &mut CappedOutput) -> Result<HookResult, HookResult> {
     let no_answer = |reason: String| HookResult::NoAnswer(reason);
     let uri: Uri = url.parse().map_err(|_| no_answer("the address is not valid".to_owned()))?;
     let proxy = if is_loopback(&uri) {
@@ -49,11 +49,11 @@ fn ask(url: &str, call: &Call, kept: &mut Kept) -> Result<HookResult, HookResult
     loop {
         match body.read(&mut buffer) {
             Ok(0) => break,
-            Ok(count) => kept.push(buffer.get(..count).unwrap_or_default()),
+            Ok(count) => output.push(buffer.get(..count).unwrap_or_default()),
             // The status is the answer; the rest of the reply may stay unread.
             Err(error) => {
                 tracing::debug!(%error, "the reply to a hook breaks off");
-                kept.is_cut = true;
+                output.is_cut = true;
                 break;
             }
         }

@@ -230,8 +230,8 @@ fn a_hook_of_all_antennas_calls_once_for_a_pass_and_one_of_an_antenna_for_its_ow
         ..hook(HookEvent::Aos, 0.0)
     };
     let all = Hook { name: "all".to_owned(), ..hook(HookEvent::Aos, 0.0) };
-    let off = Hook { name: "off".to_owned(), is_on: false, ..all.clone() };
-    let mut stage = Stage::new(vec![of_yagi, of_other, all, off]);
+    let disabled = Hook { name: "disabled".to_owned(), is_on: false, ..all.clone() };
+    let mut stage = Stage::new(vec![of_yagi, of_other, all, disabled]);
     stage.passes.push(HookPass { antenna: YAGI, ..pass() });
     assert_eq!(stage.run_to(1100.0), names(&[(1000.0, "all"), (1000.0, "aos 0")]));
 }
