@@ -117,11 +117,11 @@ async fn stop_holds_a_polarization_that_is_on_its_way_where_it_is() {
     let mut rig = Rig::in_manual().await;
     rig.act("to_polarization", [("units", Value::Integer(600))]);
     rig.seconds(2.0).await;
-    let before = rig.orders().len();
+    let first_new = rig.orders().len();
     rig.stop();
     rig.until_event(3, |event| *event == Event::Stopped).await;
     rig.seconds(1.0).await;
-    let orders = &rig.orders()[before..];
+    let orders = &rig.orders()[first_new..];
     assert_eq!(orders[0], "3XS0000");
     let holds: Vec<&String> = orders.iter().filter(|text| text.starts_with("2P")).collect();
     assert_eq!(holds.len(), 1, "{orders:?}");

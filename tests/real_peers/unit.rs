@@ -1,4 +1,5 @@
-//! Unit of `sshd` with a folder of elements, and a console beside it.
+//! Unit for tests of uploads: `sshd` serves its folder of elements, and a simulator answers on its
+//! port for commands.
 
 use std::{
     fs,

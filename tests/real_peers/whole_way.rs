@@ -258,8 +258,8 @@ fn from_the_first_click_to_the_unit_s_own_word_and_back() {
     fixture.assert_proved();
     let first = fixture.files.files();
     assert!(first.len() == 1 && first[0].1 != OLD);
-    // Azel asks the unit for the selected satellite, or for the first of the file until passes are
-    // there.
+    // Azel asks the unit for the selected satellite. Until passes are predicted, none is selected,
+    // and Azel asks for the first of the file.
     let sent = fixture.sent();
     let asked =
         ["ISS (ZARYA)", "NOAA 20 (JPSS-1)"].map(|name| format!("SATELLITE=,{FILE},{name},1,0"));

@@ -207,8 +207,8 @@ impl Case {
         case
     }
 
-    /// Lets the antenna track the pass and returns its report; `None` if the antenna does not come
-    /// to track.
+    /// Lets the antenna track the pass and returns its report; `None` if the antenna never starts to
+    /// track.
     async fn report(&self, flight: &Flight, seed: u64) -> Option<RecordedReport> {
         let number = flight.elements.catalog_number();
         let station = Station { favourites: [number].into(), ..units::station() };

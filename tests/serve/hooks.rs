@@ -131,12 +131,12 @@ fn programs_that_fail_or_do_not_start_are_told_and_recorded() {
     let Bench { station, record, _folder } = bench;
     drop(station);
     let entries = rows(&record, RowKind::Entry(Kind::Hook));
-    let told: Vec<HookRun> =
+    let runs: Vec<HookRun> =
         entries.iter().map(|row| serde_json::from_value(row.data.clone()).unwrap()).collect();
-    let names: Vec<&str> = told.iter().map(|run| run.hook.as_str()).collect();
+    let names: Vec<&str> = runs.iter().map(|run| run.hook.as_str()).collect();
     assert_eq!(names, ["Fails", "Missing", "Words"]);
-    assert!(told.iter().all(|run| run.is_trial && matches!(run.state, HookState::Ended(_))));
-    assert!(told[0].is_failure() && !told[2].is_failure());
+    assert!(runs.iter().all(|run| run.is_trial && matches!(run.state, HookState::Ended(_))));
+    assert!(runs[0].is_failure() && !runs[2].is_failure());
 }
 
 #[test]

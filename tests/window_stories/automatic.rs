@@ -159,7 +159,7 @@ fn a_chip_keeps_its_tag_while_the_unit_does_not_answer() {
 }
 
 #[test]
-fn the_label_of_a_lane_cuts_no_time_and_its_button_lies_beside_the_bars() {
+fn a_lane_label_shows_its_whole_time_and_its_button_covers_no_bar() {
     for size in SIZES {
         let doings = [Doing::Rests, Doing::Parks, announces(), taking(false), taking(true)];
         let operations = doings.iter().map(on).chain(INTERRUPTIONS.map(suspended));

@@ -52,13 +52,13 @@ fn while_it_is_tracked_there_is_nothing_to_ask_for() {
 /// Returns the shown time that the antenna needs to get to the pass, from the text that contains
 /// `words`.
 fn needs(window: &Window, words: &str) -> String {
-    let mut texts = window.query_all_by_label_contains(words).filter_map(|node| {
+    let mut times = window.query_all_by_label_contains(words).filter_map(|node| {
         let node = node.accesskit_node();
         let text = node.label().or(node.value())?;
         let (time, _) = text.split_once("eeds ")?.1.split_once(" to get there")?;
         Some(time.to_owned())
     });
-    texts.next_back().unwrap_or_else(|| panic!("nothing with {words:?}"))
+    times.next_back().unwrap_or_else(|| panic!("nothing with {words:?}"))
 }
 
 #[test]

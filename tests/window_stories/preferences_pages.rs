@@ -77,7 +77,7 @@ fn ctrl_f_finds_a_setting_on_another_page_and_enter_goes_to_its_field() {
 }
 
 #[test]
-fn the_results_of_a_search_are_gone_through_with_arrows_or_clicked() {
+fn arrow_keys_and_clicks_choose_a_search_result() {
     for size in rig::sizes() {
         let mut window = form(size);
         press(&mut window, Role::TextInput, FIND);

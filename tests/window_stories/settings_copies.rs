@@ -93,7 +93,7 @@ fn a_service_setting_waits_for_the_copy() {
 #[test]
 fn without_the_copy_no_service_setting_is_sent() {
     let mut scene = Scene::open();
-    // A file stands in the place of the folder.
+    // A file with the name of the folder prevents Azel from saving the copy.
     fs::write(scene.folder.path().join("settings-copies"), "").unwrap();
     scene.open_service();
     let before = ask(&scene.unit.control, "REDUCTION?");

@@ -90,13 +90,13 @@ impl Engine {
         self.keep_locked_out(&station.antennas);
         let mut before = std::mem::take(&mut self.antennas);
         // Drop the alarms of units that leave; an owed STOP has its own alarm.
-        let is_same = |new: &&station::Antenna| {
+        let has_same_unit = |new: &&station::Antenna| {
             let previous = before.iter().find(|antenna| antenna.shown.id() == new.id);
             previous.is_some_and(|previous| Unit::new(&previous.shown.config) == Unit::new(new))
         };
-        let same: Vec<AntennaId> =
-            station.antennas.iter().filter(is_same).map(|antenna| antenna.id).collect();
-        self.alarms.keep_only(&same);
+        let unchanged: Vec<AntennaId> =
+            station.antennas.iter().filter(has_same_unit).map(|antenna| antenna.id).collect();
+        self.alarms.keep_only(&unchanged);
         // The antenna may be the same one at a new address, so both units are owed a STOP.
         let debts = self.driver.debts().clone();
         let owed: Vec<String> = (before.iter())

@@ -111,7 +111,7 @@ impl Engine {
         let now = self.now;
         self.recording.announced.retain(|(_, _, end)| now <= *end);
         for index in 0..self.antennas.len() {
-            self.take_up_passes(index);
+            self.add_passes(index);
         }
         self.look_at_passes();
         self.explain_passes();
@@ -206,7 +206,7 @@ impl Engine {
 
     /// Adds the pass that an antenna tracks now, and the pass that automatic operation must track
     /// with the antenna.
-    fn take_up_passes(&mut self, index: usize) {
+    fn add_passes(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get(index) else { return };
         let (shown, now) = (&antenna.shown, self.now);
         let id = shown.id();
@@ -229,15 +229,15 @@ impl Engine {
         });
         if let Some(duty) = duty {
             let middle_s = seconds_between(duty.start, duty.end) / 2.0;
-            self.take_up_pass(index, duty.pass.0, add_seconds(duty.start, middle_s), Some(duty));
+            self.add_pass(index, duty.pass.0, add_seconds(duty.start, middle_s), Some(duty));
         }
         if let Some(number) = tracked {
-            self.take_up_pass(index, number, now, None);
+            self.add_pass(index, number, now, None);
         }
     }
 
     /// Adds the pass of a satellite at a time, unless it is already known.
-    fn take_up_pass(&mut self, index: usize, number: u32, time: Timestamp, planned: Option<Duty>) {
+    fn add_pass(&mut self, index: usize, number: u32, time: Timestamp, planned: Option<Duty>) {
         let Some(antenna) = self.antennas.get(index) else { return };
         let (shown, now) = (&antenna.shown, self.now);
         let id = shown.id();

@@ -125,13 +125,13 @@ impl Camera {
         tx: &Transaction<'_>,
         run: i64,
     ) -> Result<(), RecordError> {
-        let mut part = tx.prepare_cached(
+        let mut insert_part = tx.prepare_cached(
             "INSERT INTO part (run, number, until_us, content) VALUES (?1, ?2, ?3, ?4)",
         )?;
         for (number, content) in &self.parts.new {
-            part.execute(params![run, number, self.until_us, deflated(content)?])?;
+            insert_part.execute(params![run, number, self.until_us, deflated(content)?])?;
         }
-        let mut piece = tx.prepare_cached(
+        let mut insert_piece = tx.prepare_cached(
             "INSERT INTO reel (run, number, piece, from_us, until_us, pictures) \
              VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
         )?;
@@ -139,18 +139,18 @@ impl Camera {
             // A whole reel takes less space than its pieces.
             tx.prepare_cached("DELETE FROM reel WHERE run = ?1 AND number = ?2")?
                 .execute(params![run, number])?;
-            piece.execute(params![run, number, 0, from_us, until_us, deflated(lines)?])?;
+            insert_piece.execute(params![run, number, 0, from_us, until_us, deflated(lines)?])?;
         }
         if !self.waiting.is_empty() {
             let (from_us, until_us) = (self.begun_us, self.until_us);
             let lines = deflated(&self.waiting)?;
-            piece.execute(params![run, self.reel, self.piece, from_us, until_us, lines])?;
+            insert_piece.execute(params![run, self.reel, self.piece, from_us, until_us, lines])?;
         }
         if !self.pending.is_empty() {
-            let mut shown =
+            let mut update_part =
                 tx.prepare_cached("UPDATE part SET until_us = ?1 WHERE run = ?2 AND number = ?3")?;
             for number in self.parts.numbers() {
-                shown.execute(params![self.until_us, run, number])?;
+                update_part.execute(params![self.until_us, run, number])?;
             }
         }
         Ok(())

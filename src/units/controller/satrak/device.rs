@@ -183,7 +183,7 @@ impl Device for Satrak {
     }
 
     fn patience(&self) -> Duration {
-        // The limit covers a question and its repetition, in addition to the poll period.
+        // One question may be lost: allow a poll period, the question, and its retry.
         self.poll_period() + REPLY * 2 + DRAIN
     }
 

@@ -15,7 +15,7 @@ pub(crate) struct SettingsWrite {
     result: Result<(), WriteError>,
     /// Number of finished questions after the read-back.
     checked: usize,
-    /// `true` if the gate has judged where the change leads an antenna that tracks.
+    /// `true` if the gate has judged the change as a motion, because the antenna tracks.
     is_judged: bool,
 }
 

@@ -199,8 +199,8 @@ struct Factor {
 
 impl Factor {
     fn log_determinant(&self) -> f64 {
-        let own = self.rows.iter().filter_map(|row| row.last());
-        2.0 * own.zip(&self.lengths).map(|(own, length)| (own * length).ln()).sum::<f64>()
+        let diagonal = self.rows.iter().filter_map(|row| row.last());
+        2.0 * diagonal.zip(&self.lengths).map(|(value, length)| (value * length).ln()).sum::<f64>()
     }
 
     /// Solves the equations for a right-hand side.
@@ -211,8 +211,8 @@ impl Factor {
             found.push(rest / row.last().copied().unwrap_or(1.0));
         }
         for (index, row) in self.rows.iter().enumerate().rev() {
-            let own = row.last().copied().unwrap_or(1.0);
-            let value = found.get(index).copied().unwrap_or_default() / own;
+            let diagonal = row.last().copied().unwrap_or(1.0);
+            let value = found.get(index).copied().unwrap_or_default() / diagonal;
             for (before, part) in found.iter_mut().zip(row).take(index) {
                 *before -= part * value;
             }

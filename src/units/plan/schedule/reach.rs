@@ -490,15 +490,14 @@ impl Reach {
         self.straight_ms(from_deg, corner_deg) + self.straight_ms(corner_deg, to_deg)
     }
 
-    /// Returns `true` if an X/Y mount may dip below its minimum elevation while both axes turn. The
-    /// sine of the elevation is the product of the cosines of both axes from the zenith. This
-    /// product is smallest in a corner; in one of the two corners, it is at least as large as at
-    /// one of the ends.
+    /// Returns `true` if an X/Y mount may dip below its minimum elevation between two positions while
+    /// both axes turn; `false` for other mounts.
     fn may_dip(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> bool {
         let Mount::Xy { .. } = self.drives.mount else { return false };
         let [start, last] = [from_deg, to_deg].map(|axes| axes.map(|deg| (deg - ZENITH_DEG).abs()));
-        // In one corner, each axis is as far from the zenith as at its further end. If that is the
-        // same end for both axes, the corner is that end.
+        // The sine of the elevation is the product of the cosines of both axes from the zenith, so it
+        // is smallest where each axis is as far from the zenith as at its further end. If that is
+        // the same end for both axes, the lowest position is that end.
         if (start[0] >= last[0]) == (start[1] >= last[1]) {
             return false;
         }

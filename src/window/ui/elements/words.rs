@@ -449,7 +449,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_copied_can_be_read_again() {
+    fn copied_elements_can_be_read_again() {
         let catalog = bundled().unwrap();
         let iss = catalog.get(25_544).unwrap();
         for form in [Form::Tle, Form::Omm] {

@@ -50,11 +50,11 @@ pub(super) fn tracks(
         }
         let position = projection.point(end.point);
         let line = projection.lines(&[start.point, end.point]);
-        let along = line.first().and_then(|line| match line[..] {
+        let direction = line.first().and_then(|line| match line[..] {
             [start, end] => Some((end - start).normalized()),
             _ => None,
         })?;
-        Some(Tick { time: end.time, position, across: along.rot90() })
+        Some(Tick { time: end.time, position, across: direction.rot90() })
     };
     Tracks {
         flown: projection.lines(&flown),

@@ -17,7 +17,7 @@ pub(super) struct Questions {
 
 /// Shows the open question, if any. Esc answers no.
 pub(super) fn show(ui: &Ui, model: &Model, state: &mut Questions, commands: &mut Vec<UiCommand>) {
-    let ask = match &model.uploads.stage {
+    let answer = match &model.uploads.stage {
         Stage::AsksAboutTracking(busy) => yes_or_no(
             dialogs::question(ui, about_tracking(*busy), "Continue"),
             Ask::AgreeToTracking,
@@ -33,7 +33,7 @@ pub(super) fn show(ui: &Ui, model: &Model, state: &mut Questions, commands: &mut
             None
         }
     };
-    commands.extend(ask.map(|ask| UiCommand::Station(contract::Command::Upload(ask))));
+    commands.extend(answer.map(|answer| UiCommand::Station(contract::Command::Upload(answer))));
 }
 
 fn yes_or_no(answer: Option<Answer>, yes: Ask) -> Option<Ask> {

@@ -47,7 +47,7 @@ impl AxisDrive {
     ];
 
     pub(super) fn from_byte(byte: u8) -> Self {
-        // A byte with other upper bits may not be a state.
+        // A byte with other upper bits is no known state, even if its lower bits are those of one.
         let entry = Self::CODES.into_iter().find(|(_, code)| BASE + code == byte);
         entry.map_or(Self::Unknown(byte), |(drive, _)| drive)
     }

@@ -24,7 +24,7 @@ fn number(name: &str, default: u64) -> u64 {
     std::env::var(name).map_or(default, |value| value.parse().unwrap())
 }
 
-fn share(random: &mut Random) -> f64 {
+fn draw_fraction(random: &mut Random) -> f64 {
     f64::from(random.below(10_000)) / 10_000.0
 }
 
@@ -38,9 +38,9 @@ struct TrackNoise {
 
 impl TrackNoise {
     fn drawn(random: &mut Random) -> Self {
-        let white_deg = 0.002 + 0.05 * share(random).powi(2);
-        let wind_deg = if random.below(2) == 0 { 0.0 } else { 0.05 * share(random) };
-        Self { white_deg, wind_deg, lasts_s: 1.0 + 29.0 * share(random) }
+        let white_deg = 0.002 + 0.05 * draw_fraction(random).powi(2);
+        let wind_deg = if random.below(2) == 0 { 0.0 } else { 0.05 * draw_fraction(random) };
+        Self { white_deg, wind_deg, lasts_s: 1.0 + 29.0 * draw_fraction(random) }
     }
 
     /// Returns the root mean square of both angles together, degrees.
@@ -92,13 +92,13 @@ fn cause(kind: &str, flight: &Flight, mount: Mount, random: &mut Random) -> Caus
         "azimuth scale" => Cause::AzimuthScale { per_mille: 8.0 * size },
         "elevation scale" => Cause::ElevationScale { per_mille: 20.0 * size },
         "stuck axis" => {
-            let after_s = flight.pass.duration_s() * 0.9 * share(random);
+            let after_s = flight.pass.duration_s() * 0.9 * draw_fraction(random);
             Cause::Stuck { start: add_seconds(flight.pass.aos.time, after_s), axis }
         }
         "slow axis" | "slow drives" => {
             let axis = axis.filter(|_| kind == "slow axis");
             let needed = needed_deg_s(flight, mount, axis.map(|axis| usize::from(axis == axes[1])));
-            Cause::SlowDrives { rate_deg_s: needed * (0.3 + 0.6 * share(random)), axis }
+            Cause::SlowDrives { rate_deg_s: needed * (0.3 + 0.6 * draw_fraction(random)), axis }
         }
         "elements" => Cause::OtherElements { epoch: flight.elements.epoch() },
         kind => panic!("{kind}"),
@@ -155,7 +155,7 @@ fn no_cause_is_named_without_one() {
         let other = flight.shifted(0.3 * signed(&mut random));
         let others = [(flight.elements.epoch(), Propagator::new(&other).unwrap())];
         // The narrowest beams lose the satellite in this noise.
-        let half_beam_deg = noise.rms_deg() * (0.5 + 4.0 * share(&mut random));
+        let half_beam_deg = noise.rms_deg() * (0.5 + 4.0 * draw_fraction(&mut random));
         let found = explained(flight, mount, half_beam_deg, &measured, &others);
         if !found.is_empty() {
             named += 1;
@@ -199,7 +199,7 @@ fn a_single_cause_is_named_or_among_three() {
         let others = [(flight.elements.epoch(), other)];
         // The error spoils the pass, but the noise does not.
         let half_beam_deg =
-            (effect_deg * (0.4 + 0.6 * share(&mut random))).max(2.0 * noise.rms_deg());
+            (effect_deg * (0.4 + 0.6 * draw_fraction(&mut random))).max(2.0 * noise.rms_deg());
         let found = explained(flight, mount, half_beam_deg, &noisy_track, &others);
         let is_right = found.iter().any(|found| {
             found.partner.is_none()

@@ -1,4 +1,4 @@
-//! Min elevation of a unit that points lower than the station allows.
+//! Warning about a unit whose minimum elevation is below that of the station, and its remedy.
 
 use egui::{Sense, Ui, vec2};
 
